@@ -24,6 +24,7 @@ grab_levels  | grab         | 9  |
 push         | push         | 9  | Forest/Leaves=true;Forest/Colour by Level=false
 hedge        | hedge        | 9  |
 meadow_robot | meadow_robot | 20 |
+mowing       | mowing       | 50 |
 crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |

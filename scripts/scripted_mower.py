@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives a mower without a robot to and fro through branches and plants, which its hull and mast
-push aside.
+push aside; or lane by lane over a meadow, if ~lanes is above 0.
 
 It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches and
 canopy/contacts. Its bodies are the parameter ~bodies of forest_animator and canopy_animator
@@ -31,7 +31,9 @@ class ScriptedMower:
         self.speed = rospy.get_param('~speed', 0.8)  # [m/s]
         # Distance of the turning points from the middle. [m]
         self.way = rospy.get_param('~way', 5.0)
-        self.place, self.start = -self.way, None
+        self.lanes = rospy.get_param('~lanes', 0)
+        self.lane_width = rospy.get_param('~lane_width', 1.0)  # [m]
+        self.start, self.pose = None, (-self.way, 0.0, 0.0)  # x, y, yaw
         self.wrenches = deque()
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self.markers = rospy.Publisher('mower/markers', MarkerArray, queue_size=1)
@@ -61,32 +63,60 @@ class ScriptedMower:
         now = event.current_real
         if self.start is None or now < self.start:
             self.start = now
-        # The mower moves to and fro at constant speed and slows down where it turns.
-        phase = (now - self.start).to_sec() * self.speed / (2.0 * self.way)
-        self.place = self.way * math.asin(0.999 * math.sin(math.pi * (phase - 0.5))) / (0.5 * math.pi)
+        distance = (now - self.start).to_sec() * self.speed
+        self.pose = self.on_lanes(distance) if self.lanes else self.to_and_fro(distance)
         self.send(now)
         self.draw(now)
+
+    def to_and_fro(self, distance):
+        """Returns the pose on a line; the mower slows down where it turns."""
+        phase = distance / (2.0 * self.way)
+        x = self.way * math.asin(0.999 * math.sin(math.pi * (phase - 0.5))) / (0.5 * math.pi)
+        return x, 0.0, 0.0
+
+    def on_lanes(self, distance):
+        """Returns the pose on parallel lanes, which half circles connect. The mower stops at the
+        end of the last one."""
+        length, radius = 2.0 * self.way, 0.5 * self.lane_width
+        turn = math.pi * radius
+        distance = min(distance, self.lanes * (length + turn) - turn)
+        lane = min(int(distance / (length + turn)), self.lanes - 1)
+        along = distance - lane * (length + turn)
+        sign = 1.0 if lane % 2 == 0 else -1.0
+        south = (lane - 0.5 * self.lanes) * self.lane_width
+        if along <= length:
+            return sign * (along - self.way), south, 0.0 if sign > 0.0 else math.pi
+        angle = (along - length) / radius
+        x, y = sign * (self.way + radius * math.sin(angle)), south + radius * (1.0 - math.cos(angle))
+        return x, y, angle if sign > 0.0 else math.pi - angle
 
     def send(self, now):
         transform = TransformStamped(child_frame_id=self.frame)
         transform.header.stamp, transform.header.frame_id = now, self.world
-        transform.transform.translation.x = self.place
-        transform.transform.rotation.w = 1.0
+        x, y, yaw = self.pose
+        transform.transform.translation.x, transform.transform.translation.y = x, y
+        transform.transform.rotation.z = math.sin(0.5 * yaw)
+        transform.transform.rotation.w = math.cos(0.5 * yaw)
         self.tf.publish([transform])
 
     def draw(self, now):
         force = self.force(now)
         wheels = [self.solid(10 + i, Marker.CYLINDER, (x, y, 0.22), (0.44, 0.44, 0.14), BLACK, True)
                   for i, (x, y) in enumerate([(-0.4, -0.36), (-0.4, 0.36), (0.4, -0.36), (0.4, 0.36)])]
+        hull = self.solid(0, Marker.CUBE, (0.0, 0.0, 0.4), (1.1, 0.7, 0.5), GREEN)
+        if self.lanes:
+            deck = self.solid(3, Marker.CUBE, (0.2, 0.0, 0.12), (0.5, 1.1, 0.08), STEEL)
+            self.markers.publish(MarkerArray(wheels + [hull, deck]))
+            return
         self.markers.publish(MarkerArray(wheels + [
-            self.solid(0, Marker.CUBE, (0.0, 0.0, 0.4), (1.1, 0.7, 0.5), GREEN),
+            hull,
             self.solid(1, Marker.CYLINDER, (0.1, 0.0, 1.45), (0.14, 0.14, 1.6), STEEL),
             self.solid(2, Marker.SPHERE, (0.1, 0.0, 2.25), (0.14, 0.14, 0.14), STEEL),
             self.arrow(force), self.label(force)]))
 
     def marker(self, number, kind, colour):
         out = Marker(ns='mower', id=number, type=kind, action=Marker.ADD)
-        out.header.frame_id = self.world
+        out.header.frame_id, out.frame_locked = self.frame, True
         out.pose.orientation.w = 1.0
         out.color = ColorRGBA(*colour, 1.0)
         out.lifetime = rospy.Duration(1.0)
@@ -95,7 +125,7 @@ class ScriptedMower:
     def solid(self, number, kind, offset, size, colour, lying=False):
         out = self.marker(number, kind, colour)
         at, turn = out.pose.position, out.pose.orientation
-        at.x, at.y, at.z = self.place + offset[0], offset[1], offset[2]
+        at.x, at.y, at.z = offset
         if lying:
             turn.x = turn.w = math.sqrt(0.5)
         out.scale.x, out.scale.y, out.scale.z = size
@@ -106,13 +136,13 @@ class ScriptedMower:
         if math.hypot(*force) * METRES_PER_NEWTON < 0.05:
             out.action = Marker.DELETE
         out.scale.x, out.scale.y, out.scale.z = 0.05, 0.11, 0.16
-        foot = (self.place + 0.1, 0.0, 1.6)
+        foot = (0.1, 0.0, 1.6)
         out.points = [Point(*foot), Point(*[p + METRES_PER_NEWTON * f for p, f in zip(foot, force)])]
         return out
 
     def label(self, force):
         out = self.marker(5, Marker.TEXT_VIEW_FACING, (0.05, 0.05, 0.05))
-        out.pose.position.x, out.pose.position.z = self.place + 0.1, 2.6
+        out.pose.position.x, out.pose.position.z = 0.1, 2.6
         out.scale.z = 0.26
         out.text = '%.0f N' % math.hypot(*force)
         return out

@@ -35,7 +35,7 @@ class Client:
             raise VegetationError('%s/%s: %s' % (self.node, name, error)) from error
         if not response.success:
             raise VegetationError('%s/%s: %s' % (self.node, name, response.message),
-                                  response.error_code)
+                                  getattr(response, 'error_code', None))
         return response
 
     def _connect(self, name, service):

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Client of grass_field."""
 from vegetation_sim.client import Client, given, header, point, stamped
-from vegetation_sim.msg import TreadLaw
-from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
+from std_srvs.srv import SetBool
+from vegetation_sim.msg import GrassCut, TreadLaw
+from vegetation_sim.srv import ClearGrass, CutGrass, SampleGrass, Tread
 
 
 class Grass(Client):
@@ -17,6 +18,16 @@ class Grass(Client):
         law = TreadLaw(**given(radius=radius, reach=reach, softness=softness, load=load,
                                recovery=recovery))
         return self.call('tread', Tread, points=[point(place) for place in places], law=law).length
+
+    def cut(self, *outline, height, radius=0.0, swath=(), frame=''):
+        """Cuts an area at a height [m]: inside of three places or more, or within a radius."""
+        area = GrassCut(outline=[point(place) for place in outline], radius=radius, height=height,
+                        swath=[point(place) for place in swath])
+        self.call('cut', CutGrass, header=header(frame), cut=area)
+
+    def set_cutting(self, on):
+        """Switches all cutting tools that follow frames."""
+        self.call('cutting', SetBool, data=on)
 
     def at(self, *places, frame=''):
         """Returns the grass at each place (GrassSample) at the last tick."""

@@ -247,6 +247,9 @@ TreadUpdate TreadSimulation::update(bool key_frame) {
   out.layout_hash = layout_hash_;
   out.treads = key_frame ? snapshotTreads(tread_.state(), stamp_)
                          : makeDelta(tread_.state(), touched_, {published_, stamp_});
+  const CutMap::Nodes changed = tread_.cuts().takeChanged();
+  out.treads.cuts = key_frame ? snapshotCuts(tread_.cuts().state())
+                              : makeCutDelta(tread_.cuts().state(), changed);
   if (key_frame) out.hash = hashOf(out.treads);
   touched_.clear();
   published_ = stamp_;
@@ -256,7 +259,11 @@ TreadUpdate TreadSimulation::update(bool key_frame) {
 double TreadSimulation::resistanceAt(const Point& place, Nanoseconds stamp) const {
   const Features f = layout_.map->at(place.x, place.y);
   const double crush = double{tread_.at(place, stamp).tilt} / BEND_LIMIT;
-  return drag_ * f.density * f.height * std::max(0.0, 1.0 - crush);
+  return drag_ * f.density * heightAt(place) * std::max(0.0, 1.0 - crush);
+}
+
+double TreadSimulation::heightAt(const Point& place) const {
+  return std::min(layout_.map->at(place.x, place.y).height, double{tread_.cuts().at(place).height});
 }
 
 std::vector<Drag> TreadSimulation::drags() const {
@@ -278,7 +285,7 @@ std::vector<Drag> TreadSimulation::drags() const {
 }
 
 TreadSnapshot TreadSimulation::snapshot() const {
-  return {stamp_, next_id_, sources_, tread_.state()};
+  return {stamp_, next_id_, sources_, tread_.state(), tread_.cuts().state()};
 }
 
 void TreadSimulation::restore(TreadSnapshot memory) {
@@ -287,6 +294,7 @@ void TreadSimulation::restore(TreadSnapshot memory) {
   next_id_ = memory.next_id;
   sources_ = std::move(memory.sources);
   tread_.restore(std::move(memory.tread));
+  tread_.cuts().restore(std::move(memory.cuts));
 }
 
 std::uint64_t TreadSnapshot::hash() const {
@@ -310,6 +318,7 @@ std::uint64_t TreadSnapshot::hash() const {
     describe(hasher, law);
   }
   add(tread.hash());
+  if (!cuts.empty()) cuts.addTo(hash);
   return hash.value();
 }
 

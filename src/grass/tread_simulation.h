@@ -36,6 +36,7 @@ struct TreadSnapshot {
   std::uint32_t next_id{1};
   std::map<std::string, TreadSourceState> sources;  ///< by name
   TreadState tread;
+  CutState cuts;
 
   std::uint64_t hash() const;
 };
@@ -83,6 +84,10 @@ class TreadSimulation {
   /// Raises the grass within a disc; @throws InvalidInput for a disc out of
   /// range.
   void raise(const Point& centre, double radius);
+  /// Cuts a checked area. @return the removed mass [kg]. @throws InvalidInput as checkCut() does.
+  double cut(const CutArea& area) { return tread_.cuts().cut(*layout_.map, area); }
+  /// @throws InvalidInput for an area with too many nodes.
+  void checkCut(const CutArea& area) const { tread_.cuts().checkWork(area); }
   /// Raises the grass everywhere; sources begin new passes.
   void raiseAll();
   /// Ends a tick: removes silent sources, presses again below standing ones, frees what has
@@ -91,11 +96,13 @@ class TreadSimulation {
   /// Discards all state.
   void reset();
 
-  /// Returns an update for replicas: a key frame, or what was pressed since the last call.
+  /// Returns an update for replicas: a key frame, or what was pressed or cut since the last call.
   TreadUpdate update(bool key_frame);
 
   /// Returns the drag on each source that has a body; it is zero above the gate and off the map.
   std::vector<Drag> drags() const;
+  /// Returns the height of untrodden grass, or of its stubble [m].
+  double heightAt(const Point& place) const;
   /// Returns the drag per speed on one metre of width [N/(m/s)]: drag * density * height * (1 -
   /// crush).
   double resistanceAt(const Point& place, Nanoseconds stamp) const;

@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t LONGEST_NAME = 4096;
 constexpr std::size_t NODE_BYTES = 24;
 constexpr std::size_t BLOCK_BYTES = 16 + NODE_BYTES * TreadBlock::SIDE * TreadBlock::SIDE;
+constexpr std::size_t CUT_BLOCK_BYTES = 8 + 12 * CutBlock::SIDE * CutBlock::SIDE;
 constexpr std::size_t SOURCE_BYTES = 190, WINDOW_BYTES = 60;
 constexpr std::size_t MOST_BLOCKS = 1u << 24, MOST_DOSES = 1u << 24;
 constexpr int FARTHEST_NODE = 1 << 28;
@@ -98,6 +99,24 @@ void archive(Archive& a, const BlockRange& range, TreadState& state) {
     a.integer("count", *count);
 }
 
+void archive(Archive& a, CutBlock& block) {
+  for (CutNode& node : block.nodes) {
+    a.number("cut height", node.height, {0.0, double{UNCUT}});
+    a.number("swath", node.swath, {0.0, 1e9});
+  }
+}
+
+void archive(Archive& a, const BlockRange& range, CutState& cuts) {
+  a.map(
+      "cut blocks", cuts.blocks, MOST_BLOCKS, CUT_BLOCK_BYTES,
+      [&](std::pair<int, int>& place) {
+        a.integer("cut block row", place.first, 0, range.rows - 1);
+        a.integer("cut block column", place.second, 0, range.columns - 1);
+      },
+      [&a](const auto&, CutBlock& block) { archive(a, block); });
+  a.integer("count", cuts.no_memory);
+}
+
 void archive(Archive& a, const BlockRange& range, TreadSnapshot& snapshot) {
   a.stamp("stamp", snapshot.stamp);
   a.integer<std::uint32_t>("next id", snapshot.next_id, 1);
@@ -106,6 +125,7 @@ void archive(Archive& a, const BlockRange& range, TreadSnapshot& snapshot) {
       [&a](std::string& name) { a.text("source", name, LONGEST_NAME); },
       [&a](const std::string&, TreadSourceState& source) { archive(a, source); });
   archive(a, range, snapshot.tread);
+  archive(a, range, snapshot.cuts);
   if (!a.reads()) return;
   for (const auto& [name, source] : snapshot.sources)
     if (source.id >= snapshot.next_id)

@@ -85,7 +85,8 @@ double GrassVolume::topAt(double x, double y) const {
 
 double GrassVolume::depthAbove(const Vec3& place, const Vec3& direction) const {
   constexpr double LEAST_RISE = 0.1;  // of the direction, so that the way ends near the place
-  const double rise = topAt(place.x(), place.y()) - above(place);
+  const double rise =
+      std::min(topAt(place.x(), place.y()), cutAt(place.x(), place.y()).height) - above(place);
   if (!(rise > 0.0)) return 0.0;
   const double way = rise / std::max(direction.z(), LEAST_RISE);
   return extinction(place + 0.5 * way * direction, direction) * way;
@@ -93,6 +94,11 @@ double GrassVolume::depthAbove(const Vec3& place, const Vec3& direction) const {
 
 double GrassVolume::tiltAt(double x, double y) const {
   return double{tread_->at({x, y}, stamp_).tilt};
+}
+
+GrassVolume::Cut GrassVolume::cutAt(double x, double y) const {
+  const grass::CutNode node = tread_->cuts().at({x, y});
+  return {double{node.height}, node.swath};
 }
 
 double GrassVolume::above(const Vec3& place) const {
@@ -121,6 +127,8 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
   if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
   const grass::Features here = layout_.map->at(place.x(), place.y());
   if (!(here.density > 0.0)) return 0.0;
+  const double cut = cutAt(place.x(), place.y()).height;
+  if (!(height < cut)) return 0.0;
   const double tilt = tiltAt(place.x(), place.y());
   const Vec3 air = airAt(place.x(), place.y());
   double sum = 0.0, shares = 0.0;
@@ -136,8 +144,9 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
     const double both = std::sqrt(tilt * tilt + left * left);
     const double hinge = tilt + left > 0.0 ? both * tilt / (tilt + left) : 0.0;
     const double rise = sinCos(hinge + 0.5 * (both - hinge)).cos;
-    const double most = here.height * kind.height;
-    const double width = kind.width * widthAt(height / rise, most * (1.0 - kind.spread), most);
+    const double most = here.height * kind.height, least = most * (1.0 - kind.spread);
+    const double width =
+        kind.width * widthAt(height / rise, std::min(least, cut), std::min(most, cut));
     // Mean squared cosine between the ray and blades of random direction.
     const double steep = direction.z() * direction.z();
     const double along = rise * rise * steep + 0.5 * (1.0 - rise * rise) * (1.0 - steep);

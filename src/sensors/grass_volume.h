@@ -52,6 +52,11 @@ class GrassVolume {
   double depthAbove(const Vec3& place, const Vec3& direction) const;
   /// Returns how far the grass is trodden down [rad].
   double tiltAt(double x, double y) const;
+  /// Height of the stubble, grass::UNCUT if there is none [m], and cut grass on it [kg/m^2].
+  struct Cut {
+    double height, swath;
+  };
+  Cut cutAt(double x, double y) const;
   /// Returns the extinction of a ray of this direction at a world place [1/m].
   double extinction(const Vec3& place, const Vec3& direction) const;
 

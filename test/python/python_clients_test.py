@@ -118,6 +118,7 @@ class PythonClients(unittest.TestCase):
              ErrorCode.UNKNOWN),
             (lambda: self.grass.tread((0, 0), radius=0.0), 'radius = 0 m is outside'),
             (lambda: self.grass.clear((0, 0), -1.0), 'radius = -1 m is outside'),
+            (lambda: self.grass.cut((0, 0), radius=1.0, height=-1.0), 'height = -1 m is outside'),
             (lambda: self.crowd.spawn((0, 0), count=0), 'count = 0 is outside'),
             (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown',
              ErrorCode.UNKNOWN),
@@ -157,6 +158,10 @@ class PythonClients(unittest.TestCase):
         wait_for(lambda: self.grass.at((0, 1))[0].crush > 0.9, 'the track')
         self.grass.clear()
         wait_for(lambda: self.grass.at((0, 1))[0].crush == 0.0, 'grass that stands')
+        self.grass.cut((-1, 0), (1, 0), (1, 2), (-1, 2), height=0.01)
+        wait_for(lambda: self.grass.at((0, 1))[0].cut, 'stubble')
+        self.grass.set_cutting(False)
+        self.grass.set_cutting(True)
         # The breeze of the scenario alone stays below 6 m/s.
         self.wind.breeze((7, 0, 0), turbulence=0.0, name='steady')
         wait_for(lambda: self.wind.at((0, 0, 2))[0][0] > 7.0, 'the wind')

@@ -36,11 +36,19 @@ Met meetings(const Grass& grass, double low, double high, int rays = 4000) {
   return out;
 }
 
+void cutAll(Lawn& lawn, double height) {
+  grass::CutArea area;
+  area.outline = {{10.0, 10.0}};
+  area.radius = 20.0;
+  area.height = height;
+  lawn.tread.cuts().cut(*lawn.layout.map, area);
+}
+
 struct Case {
   const char* name;
   double height, density;
   Vec3 air;
-  bool trodden;
+  bool trodden, cut{false};
 };
 
 // N1: the medium against every blade. 4000 rays: a share is sure to 0.016, twice its deviation.
@@ -48,9 +56,11 @@ TEST(GrassVolume, LetsThroughAsMuchAsItsBladesDo) {
   for (const Case& one :
        {Case{"lawn", 0.3, 400.0, Vec3::Zero(), false}, Case{"thin", 0.3, 60.0, Vec3::Zero(), false},
         Case{"wind", 0.3, 100.0, Vec3(7, 0, 0), false},
-        Case{"trodden", 0.3, 400.0, Vec3::Zero(), true}}) {
+        Case{"trodden", 0.3, 400.0, Vec3::Zero(), true},
+        Case{"cut", 0.3, 1600.0, Vec3::Zero(), false, true}}) {
     Lawn lawn(one.height, one.density);
     if (one.trodden) lawn.treadLane();
+    if (one.cut) cutAll(lawn, 0.12);
     const wind::Field wind = breezeOf(one.air);
     GrassVolume grass_volume;
     lawn.show(grass_volume, wind);
@@ -94,6 +104,18 @@ TEST(GrassVolume, ColumnsLetThroughAsMuchAsCubesDo) {
     EXPECT_NEAR(steep[1], steep[0], 0.035 * 4000.0) << density;
     EXPECT_GT(steep[1], 0.01 * 4000.0) << density;
   }
+}
+
+TEST(GrassVolume, EndsAtTheStubbleOfCutGrass) {
+  Lawn lawn(0.3, 400.0);
+  cutAll(lawn, 0.08);
+  GrassVolume grass;
+  lawn.show(grass);
+  const Vec3 level(1.0, 0.0, 0.0);
+  EXPECT_EQ(grass.extinction({10.0, 10.0, 0.081}, level), 0.0);
+  EXPECT_GT(grass.extinction({10.0, 10.0, 0.06}, level), 0.0);
+  EXPECT_EQ(grass.depthAbove({10.0, 10.0, 0.081}, Vec3(0.0, 0.0, 1.0)), 0.0);
+  EXPECT_GT(grass.depthAbove({10.0, 10.0, 0.0}, Vec3(0.0, 0.0, 1.0)), 0.0);
 }
 
 // N1

@@ -185,7 +185,10 @@ HWY_INLINE void putSloped(const LanesFrame& f, const LanesProfile& p, int lane, 
 // Second pass: lengths and bends.
 HWY_INLINE void bendLanes(const Tile& tile, const TilePlan<float>& plan, const CrushPatch* crush,
                           int i, Chunk& c) {
-  const LanesRoot root = rootOf(tile, plan, i, c);
+  LanesRoot root = rootOf(tile, plan, i, c);
+  if (crush && !crush->cut.empty())
+    root.length = hn::Min(root.length, hn::GatherIndex(Tag(), crush->cut.data(),
+                                                       nearestAt(root.u, root.v, crush->cells)));
   LanesBent bent = bendOf(plan, root, from(c.lean_x + i), from(c.lean_y + i));
   if (crush) {
     bent = trodden(bent, *crush, root);

@@ -128,6 +128,14 @@ HWY_INLINE Lanes interpolate(const LanesCell& c, const LanesCorners& g) {
          (g.high0 * (one - c.p) + g.high1 * c.p) * c.q;
 }
 
+// CrushPatch::nearest().
+HWY_INLINE Indices nearestAt(Lanes u, Lanes v, int cells) {
+  const Lanes n = all(static_cast<float>(cells)), half = all(0.5f);
+  const IndexTag tag;
+  return hn::ConvertTo(tag, v * n + half) * hn::Set(tag, cells + 1) +
+         hn::ConvertTo(tag, u * n + half);
+}
+
 // ---- profile ---------------------------------------------------------------------------------
 
 struct LanesProfile {

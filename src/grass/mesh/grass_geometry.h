@@ -32,6 +32,8 @@ struct RibbonStyle {
   double leaving{0.0};               ///< share of the last blades that narrow to nothing
   Vec3 eye{Vec3(0.0, 0.0, 1e3)};     ///< position of the viewer, world [m]; ribbons face it
   const GrassLight* light{nullptr};  ///< null: colours of the map, dark at the root
+  /// Blades on cut ground have no flowers and the pale colour of their stems; null: none is cut.
+  const CrushPatch* crush{nullptr};
   float variety{0.f};  ///< variation of colour and lightness between blades; 1 is that of a meadow
 };
 

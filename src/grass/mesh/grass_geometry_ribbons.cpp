@@ -12,11 +12,15 @@
 namespace vegetation_sim::grass {
 namespace {
 
-constexpr int PETALS = 6;  ///< corners of a flower around its middle
+constexpr float STUBBLE_PALENESS = 0.3f;  ///< stems are drier than leaves
+constexpr float STUBBLE_SHADE = 0.4f;     ///< part of the shade of neighbours that stubble has
+constexpr float HALF_HIDDEN = 0.12f;      ///< cut grass that hides half of what is below [kg/m^2]
+constexpr int PETALS = 6;                 ///< corners of a flower around its middle
 
 struct Float3 {
   float x, y, z;
 };
+constexpr Float3 HAY{0.66f, 0.60f, 0.33f};
 Float3 operator+(const Float3& a, const Float3& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
@@ -114,11 +118,14 @@ class Ribbons {
   void append(const BladeBlock* blocks, int count, GrassMesh& mesh) {
     const auto n = static_cast<std::size_t>(style_.segments);
     kinds_.resize(static_cast<std::size_t>(count));
+    flowers_.resize(static_cast<std::size_t>(count));
     std::size_t flowers = 0;
     for (int blade = 0; blade < count; ++blade) {
       const int kind = kindOf(blocks[blade / BLOCK], blade);
       kinds_[static_cast<std::size_t>(blade)] = kind;
-      flowers += looks_[static_cast<std::size_t>(kind)].flower > 0.f ? 1 : 0;
+      flowers_[static_cast<std::size_t>(blade)] =
+          isCut(blocks[blade / BLOCK], blade) ? 0.f : looks_[static_cast<std::size_t>(kind)].flower;
+      flowers += flowers_[static_cast<std::size_t>(blade)] > 0.f ? 1 : 0;
     }
     const auto blades = static_cast<std::size_t>(count);
     const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
@@ -139,6 +146,11 @@ class Ribbons {
     float half, flower;  ///< half the width at the root, radius of the flower [m]
   };
 
+  struct Cut {
+    bool is_cut;
+    float hidden;  ///< share that is below cut grass
+  };
+
   int kindOf(const BladeBlock& block, int blade) const {
     if (!plan_.mixed) return 0;
     const int lane = blade % BLOCK;
@@ -149,6 +161,16 @@ class Ribbons {
     for (std::size_t s = 1; s <= last; ++s)
       if (aim > plan_.shares[s - 1].at(u, v)) kind = static_cast<int>(s);
     return kind;
+  }
+
+  bool isCut(const BladeBlock& block, int blade) const { return cutAt(block, blade).is_cut; }
+  Cut cutAt(const BladeBlock& block, int blade) const {
+    if (!style_.crush || style_.crush->cut.empty()) return {false, 0.f};
+    const int lane = blade % BLOCK;
+    const std::size_t node =
+        style_.crush->nearest(block.x[0][lane] / tile_.size, block.y[0][lane] / tile_.size);
+    const float swath = style_.crush->swath[node];
+    return {style_.crush->cut[node] < UNCUT, swath / (swath + HALF_HIDDEN)};
   }
 
   void write(const BladeBlock& block, int blade, float width, Writer& out) const {
@@ -169,17 +191,21 @@ class Ribbons {
         mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile_.key >> 32));
     const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
     const float facing = std::fabs(static_cast<float>(dice >> 16) / 32768.f - 1.f);
+    const Cut cut = cutAt(block, blade);
+    const float pale = cut.is_cut ? STUBBLE_PALENESS : 0.f;
     const float dry = colour_.at(x / tile_.size, y / tile_.size) +
                       style_.variety * (0.35f * chance * chance - 0.06f);
-    const Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry))) *
-                       (1.f + style_.variety * 0.34f * (chance - 0.5f));
+    Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
+                 (1.f + style_.variety * 0.34f * (chance - 0.5f));
+    own = own + (HAY - own) * cut.hidden;
     const std::uint32_t first = out.next;
     for (int k = 0; k <= style_.segments; ++k) {
       const int at = kept_[static_cast<std::size_t>(k)];
       const float way = static_cast<float>(at) / LINKS,
                   half = width * look.half * (1.f - way * way);
       const Float3 p = point(at);
-      const Float3 c = shaded(own, p, root, way, facing);
+      const Float3 c =
+          shaded(own, p, root, cut.is_cut ? 1.f - STUBBLE_SHADE * (1.f - way) : way, facing);
       if (k == style_.segments) {
         out.vertex(p, 0.5f, 1.f, c);
         break;
@@ -189,7 +215,8 @@ class Ribbons {
     }
     for (std::uint32_t t = 0; t + 1 < 2 * static_cast<std::uint32_t>(style_.segments); ++t)
       out.triangle(first + t, first + t + 1, first + t + 2);
-    if (look.flower > 0.f) flower(tip, side, width * look.flower, look, out);
+    const float radius = flowers_[static_cast<std::size_t>(blade)];
+    if (radius > 0.f) flower(tip, side, width * radius, look, out);
   }
 
   // Without light a blade is dark at the root, where neighbours shade it.
@@ -237,7 +264,8 @@ class Ribbons {
   Bilinear<float> colour_;
   std::array<int, POINTS> kept_;
   std::vector<Look> looks_;
-  std::vector<int> kinds_;  ///< species of each blade
+  std::vector<int> kinds_;      ///< species of each blade
+  std::vector<float> flowers_;  ///< radius of the flower of each blade, 0: none [m]
 };
 
 }  // namespace

@@ -63,7 +63,11 @@ class Sheet {
     return {reach * x, reach * y, height * turn.cos};
   }
 
-  double heightAt(double u, double v) const { return height_.at(u, v); }
+  double heightAt(double u, double v) const {
+    const double height = height_.at(u, v);
+    if (!crush_ || crush_->cut.empty()) return height;
+    return std::min(height, double{crush_->cut[nodeOf(u, v)]});
+  }
   // Returns the colour of grass that leans by `offset` in this light.
   Vec3 litAt(double u, double v, const Vec3& offset, const GrassLight* light) const {
     Vec3 own = colourAt(u, v);
@@ -78,7 +82,11 @@ class Sheet {
     return out;
   }
 
-  double coverAt(double u, double v) const { return saturate(density_.at(u, v) / full_density_); }
+  // Strips of stubble would look like a net, so there are the fewer the lower it is.
+  double coverAt(double u, double v) const {
+    const double cover = saturate(density_.at(u, v) / full_density_), height = height_.at(u, v);
+    return heightAt(u, v) < height ? cover * heightAt(u, v) / height : cover;
+  }
 
   // Interpolates the colours of the corners.
   Vec3 colourAt(double u, double v) const {

@@ -68,6 +68,7 @@ TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
   cells_ = std::max(1, static_cast<int>(cells));
   spacing_ = law.resolution / cells_;
   per_spacing_ = 1.0 / spacing_;
+  cuts_ = CutMap(law, cells_, settings.memory_cap);
 }
 
 std::size_t TreadMap::bytes() const {

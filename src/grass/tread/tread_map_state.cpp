@@ -63,6 +63,7 @@ void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatc
         }
     }
   }
+  cuts_.patch(tile_column, tile_row, out);
 }
 
 bool TreadMap::put(int row, int column, const TreadNode& node) {
@@ -96,6 +97,7 @@ void TreadMap::prune(Nanoseconds stamp) {
 
 void TreadMap::clear() {
   restore(TreadState());
+  cuts_.restore(CutState());
 }
 
 void TreadMap::restore(TreadState state) {

@@ -53,7 +53,80 @@ void report(const std::pair<int, int>& place, const TreadBlock& block,
   if (!published.nodes.empty()) out.blocks.push_back(std::move(published));
 }
 
+// Appends the nodes that `selects(i, node)` selects, if there are any.
+template <class Select>
+void reportCuts(const std::pair<int, int>& place, const CutBlock& block, const Select& selects,
+                std::vector<CutBlockDelta>& out) {
+  CutBlockDelta published{place.first, place.second, {}, {}};
+  for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+    if (!selects(i, block.nodes[i])) continue;
+    published.included[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
+    published.nodes.push_back(block.nodes[i]);
+  }
+  if (!published.nodes.empty()) out.push_back(std::move(published));
+}
+
+// Checks what blocks of trodden and of cut ground have in common.
+template <class Block>
+void checkBlock(const Block& block, const std::string& name, Faults& faults) {
+  if (std::min(block.row, block.column) < 0 || std::max(block.row, block.column) > LAST_BLOCK)
+    faults.add(name + "row and column are outside 0 to " + std::to_string(LAST_BLOCK));
+  std::size_t published = 0;
+  for (const unsigned byte : block.included)
+    for (unsigned bits = byte; bits; bits &= bits - 1) ++published;
+  if (published != block.nodes.size())
+    faults.add(name + std::to_string(block.nodes.size()) + " nodes where " +
+               std::to_string(published) + " are included");
+}
+
+void checkCuts(const std::vector<CutBlockDelta>& cuts, Faults& faults) {
+  for (const CutBlockDelta& block : cuts) {
+    const std::string name = "state: cut block " + std::to_string(block.row) + ", " +
+                             std::to_string(block.column) + ": ";
+    checkBlock(block, name, faults);
+    FieldChecker checker(name, faults);
+    for (CutNode node : block.nodes) {
+      double height = double{node.height};
+      checker.number("height", height, "m", {0.0, double{UNCUT}});
+      checker.number("swath", node.swath, "kg/m^2", {0.0, 1e9});
+    }
+  }
+}
+
+// Calls `put(row, column, node)` for each included node. @return number of nodes it refused.
+template <class Block, class Put>
+int putNodes(const Block& block, const Put& put) {
+  constexpr int SIDE = TreadBlock::SIDE;
+  int refused = 0;
+  std::size_t next = 0;
+  for (int i = 0; i < SIDE * SIDE; ++i)
+    if (block.included[static_cast<std::size_t>(i / 8)] >> (i % 8) & 1)
+      refused +=
+          !put(block.row * SIDE + i / SIDE, block.column * SIDE + i % SIDE, block.nodes[next++]);
+  return refused;
+}
+
 }  // namespace
+
+std::vector<CutBlockDelta> snapshotCuts(const CutState& state) {
+  std::vector<CutBlockDelta> out;
+  const auto isCut = [](std::size_t, const CutNode& node) {
+    return node.height < UNCUT || node.swath > 0.0;
+  };
+  for (const auto& [place, block] : state.blocks) reportCuts(place, block, isCut, out);
+  return out;
+}
+
+std::vector<CutBlockDelta> makeCutDelta(const CutState& state, const CutMap::Nodes& nodes) {
+  std::vector<CutBlockDelta> out;
+  for (const auto& [place, changed] : nodes) {
+    const auto& mask = changed;
+    if (const auto found = state.blocks.find(place); found != state.blocks.end())
+      reportCuts(
+          place, found->second, [&](std::size_t i, const CutNode&) { return mask[i]; }, out);
+  }
+  return out;
+}
 
 TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp) {
   TreadDelta out;
@@ -86,6 +159,15 @@ std::uint64_t hashOf(const TreadDelta& treads) {
       hash.add(static_cast<std::uint64_t>(treads.presses[node.press].stamp));
     }
   }
+  for (const CutBlockDelta& block : treads.cuts) {
+    hash.add(static_cast<std::uint64_t>(block.row));
+    hash.add(static_cast<std::uint64_t>(block.column));
+    for (const std::uint8_t byte : block.included) hash.add(static_cast<std::uint64_t>(byte));
+    for (const CutNode& node : block.nodes) {
+      hash.add(double{node.height});
+      hash.add(node.swath);
+    }
+  }
   return hash.value();
 }
 
@@ -98,14 +180,7 @@ void check(const TreadDelta& treads, Faults& faults) {
   for (const TreadBlockDelta& block : treads.blocks) {
     const std::string name =
         "state: block " + std::to_string(block.row) + ", " + std::to_string(block.column) + ": ";
-    if (std::min(block.row, block.column) < 0 || std::max(block.row, block.column) > LAST_BLOCK)
-      faults.add(name + "row and column are outside 0 to " + std::to_string(LAST_BLOCK));
-    std::size_t published = 0;
-    for (const unsigned byte : block.included)
-      for (unsigned bits = byte; bits; bits &= bits - 1) ++published;
-    if (published != block.nodes.size())
-      faults.add(name + std::to_string(block.nodes.size()) + " nodes where " +
-                 std::to_string(published) + " are included");
+    checkBlock(block, name, faults);
     for (const TreadNodeDelta& node : block.nodes) {
       if (node.press >= treads.presses.size())
         faults.add(name + "press = " + std::to_string(node.press) + " is outside 0 to " +
@@ -115,21 +190,20 @@ void check(const TreadDelta& treads, Faults& faults) {
       if (!sound) faults.add(name + "a tilt or direction is impossible");
     }
   }
+  checkCuts(treads.cuts, faults);
 }
 
 int applyDelta(const TreadDelta& treads, TreadMap& map) {
-  constexpr int SIDE = TreadBlock::SIDE;
   int refused = 0;
-  for (const TreadBlockDelta& block : treads.blocks) {
-    std::size_t next = 0;
-    for (int i = 0; i < SIDE * SIDE; ++i) {
-      if (!(block.included[static_cast<std::size_t>(i / 8)] >> (i % 8) & 1)) continue;
-      const TreadNodeDelta& node = block.nodes[next++];
+  for (const TreadBlockDelta& block : treads.blocks)
+    refused += putNodes(block, [&](int row, int column, const TreadNodeDelta& node) {
       const Press& press = treads.presses[node.press];
-      refused += !map.put(block.row * SIDE + i / SIDE, block.column * SIDE + i % SIDE,
-                          {node.tilt, node.x, node.y, press.recovery, press.stamp});
-    }
-  }
+      return map.put(row, column, {node.tilt, node.x, node.y, press.recovery, press.stamp});
+    });
+  for (const CutBlockDelta& block : treads.cuts)
+    refused += putNodes(block, [&](int row, int column, const CutNode& node) {
+      return map.cuts().put(row, column, node);
+    });
   return refused;
 }
 

@@ -40,6 +40,33 @@ void addTreads(const grass::TreadSimulation& field, double resolution, GrassCove
     }
 }
 
+// Only cut blocks are visited. A node counts for the square around it.
+void addCuts(const grass::TreadSimulation& field, double resolution, GrassCover& cover) {
+  const int rows = static_cast<int>(cover.info.height),
+            columns = static_cast<int>(cover.info.width);
+  cover.cut.assign(cover.density.size(), 0.f);
+  cover.swath.assign(cover.density.size(), 0.f);
+  const double spacing = field.tread().spacing() / resolution;
+  // A cell that is smaller than the spacing takes the value of a node as its own.
+  const double part = std::min(1.0, spacing * spacing);
+  std::vector<double> removed(cover.density.size(), 0.0);
+  for (const auto& [place, block] : field.tread().cuts().state().blocks)
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+      const grass::CutNode& node = block.nodes[static_cast<std::size_t>(i)];
+      const int column = static_cast<int>((place.second * SIDE + i % SIDE) * spacing);
+      const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
+      const std::size_t cell = static_cast<std::size_t>(std::min(row, rows - 1)) * columns +
+                               std::min(column, columns - 1);
+      cover.swath[cell] += static_cast<float>(part * node.swath);
+      const double cut = double{cover.height[cell]} - double{node.height};
+      if (!(cut > 0.0)) continue;
+      cover.cut[cell] = std::min(1.f, cover.cut[cell] + static_cast<float>(part));
+      removed[cell] += part * cut;
+    }
+  for (std::size_t i = 0; i < removed.size(); ++i)
+    cover.height[i] = std::max(0.f, cover.height[i] - static_cast<float>(removed[i]));
+}
+
 std::int8_t percent(double share) {
   return static_cast<std::int8_t>(std::floor(100.0 * std::clamp(share, 0.0, 1.0) + 0.5));
 }
@@ -69,6 +96,7 @@ GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, doubl
   GrassCover out = std::move(ground);
   out.header.stamp = toStamp(field.stamp());
   addTreads(field, resolution, out);
+  addCuts(field, resolution, out);
   for (std::size_t i = 0; i < out.density.size(); ++i)
     out.resistance.push_back(static_cast<float>(field.drag()) * out.density[i] * out.height[i] *
                              std::max(0.f, 1.f - out.crush[i]));
@@ -78,8 +106,8 @@ GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, doubl
 nav_msgs::OccupancyGrid percentOf(const GrassCover& cover, CoverLayer layer,
                                   const CoverScale& scale) {
   const std::vector<float>* const values[] = {&cover.crush, &cover.density, &cover.resistance,
-                                              &cover.age};
-  const double full[] = {1.0, scale.density, scale.resistance, scale.age};
+                                              &cover.age, &cover.cut};
+  const double full[] = {1.0, scale.density, scale.resistance, scale.age, 1.0};
   const auto index = static_cast<std::size_t>(layer);
   nav_msgs::OccupancyGrid out;
   out.header = cover.header;

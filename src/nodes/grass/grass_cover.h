@@ -12,9 +12,10 @@
 namespace vegetation_sim {
 
 /// A layer of the cover map (N5): tilt of the most trodden node of a cell, blades per area, drag
-/// per speed, or time since it was trodden.
-enum class CoverLayer : int { CRUSH = 0, DENSITY = 1, RESISTANCE = 2, AGE = 3 };
-constexpr std::array<const char*, 4> COVER_LAYERS = {"crush", "density", "resistance", "age"};
+/// per speed, time since it was trodden, or share of it that is cut.
+enum class CoverLayer : int { CRUSH = 0, DENSITY = 1, RESISTANCE = 2, AGE = 3, CUT = 4 };
+constexpr std::array<const char*, 5> COVER_LAYERS = {"crush", "density", "resistance", "age",
+                                                     "cut"};
 
 /// Values that the layers in percent show as 100. They do not depend on the meadow, so equal grass
 /// has equal percentages on every map.

@@ -19,8 +19,11 @@ std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
       else
         simulation.raise({event.centre.x, event.centre.y}, event.radius);
       return "";
+    case GrassEvent::CUT:
+      simulation.cut(fromMsg(event.cut, "cut: "));
+      return "";
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 5");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 6");
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace vegetation_sim {
 
-/// Treads or raises grass. @return what TreadSimulation::apply() returns for a tread, else an empty
-/// text. @throws InvalidInput, and then nothing has changed, also for another kind.
+/// Treads, cuts or raises grass. @return what TreadSimulation::apply() returns for a tread, else an
+/// empty text. @throws InvalidInput, and then nothing has changed, also for another kind.
 std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
                          grass::TreadSimulation& simulation);
 

@@ -16,7 +16,8 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                 loadGrassOptions(private_handle)),
       tuning_(options_.tuning),
       key_frames_(options_.key_frame_period, options_.state_rate, options_.state_bytes),
-      sources_(handle_, options_.frame_id, options_.sources, tf_buffer_, options_.frame_wait) {
+      sources_(handle_, options_.frame_id, options_.sources, tf_buffer_, options_.frame_wait),
+      cutters_(options_.frame_id, options_.cutters, tf_buffer_, options_.frame_wait) {
   const GrassScene& scene = options_.scene;
   grass::Layout layout = scene.grass.layout;
   tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), scene.grass.treading);
@@ -48,12 +49,17 @@ void GrassField::connect() {
   serve("tread", &GrassField::onTreadPath);
   serve("sample", &GrassField::onSample);
   serve("clear", &GrassField::onClear);
+  serve("cut", &GrassField::onCut);
+  serve("cutting", &GrassField::onCutting);
   repeat(options_.cover_rate, &GrassField::sendCover);
 }
 
 void GrassField::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
-  if (!options_.replay) followSources(stamp);
+  if (!options_.replay) {
+    followSources(stamp);
+    followCutters(stamp);
+  }
   applyInputs(stamp);
   publishEntering(stamp);
   publishState(tick);
@@ -104,11 +110,13 @@ void GrassField::applyTuning(GrassTuning tuning) {
 void GrassField::resetGround() {
   field_->reset();
   sources_.clear();
+  cutters_.clear();
   key_frames_.demand();
 }
 
 bool GrassField::isOutdated(const GrassEvent& event) const {
-  return event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR;
+  return event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR ||
+         event.kind == GrassEvent::CUT;
 }
 
 void GrassField::restart() {

@@ -4,7 +4,9 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <std_srvs/SetBool.h>
 #include <vegetation_sim/ClearGrass.h>
+#include <vegetation_sim/CutGrass.h>
 #include <vegetation_sim/GrassEvent.h>
 #include <vegetation_sim/GrassForces.h>
 #include <vegetation_sim/SampleGrass.h>
@@ -18,6 +20,7 @@
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
 #include "nodes/grass/grass_cover.h"
+#include "nodes/grass/grass_cutters.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
 #include "nodes/markers/grass_markers.h"
@@ -43,6 +46,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   bool isInput(const GrassEvent& event) const override { return event.kind != GrassEvent::ENTER; }
   bool isOutdated(const GrassEvent& event) const override;
   void followSources(Nanoseconds stamp);
+  void followCutters(Nanoseconds stamp);
   TreadEvent inWorld(const TreadEvent& message) const;
   GrassEvent treadEvent(const grass::TreadInput& input) const;
 
@@ -74,6 +78,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   // Services.
   bool onTreadPath(Tread::Request& request, Tread::Response& response);
   bool onSample(SampleGrass::Request& request, SampleGrass::Response& response);
+  bool onCut(CutGrass::Request& request, CutGrass::Response& response);
+  bool onCutting(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool onClear(ClearGrass::Request& request, ClearGrass::Response& response);
   std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
@@ -86,6 +92,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
   GrassSources sources_;
+  GrassCutters cutters_;
   GrassCover ground_;  // of the cover map, once it is wanted
 
   static constexpr const char* PATH = "path_";

@@ -59,6 +59,21 @@ void GrassField::followSources(Nanoseconds stamp) {
     });
 }
 
+void GrassField::followCutters(Nanoseconds stamp) {
+  const double longest = options_.scene.grass.treading.longest_stroke;
+  for (const grass::CutArea& area :
+       cutters_.update(stamp, field_->terrain(), tuning_.height_gate, longest))
+    acceptInput("cutter", [&] {
+      Faults faults;
+      check(area, "cutter: ", faults);
+      faults.throwIfAny();
+      GrassEvent event;
+      event.kind = GrassEvent::CUT;
+      event.cut = toMsg(area);
+      inputs_.add(std::move(event));
+    });
+}
+
 GrassEvent GrassField::tuningEvent(const GrassFieldConfig& config) const {
   const GrassTuning tuning = fromConfig(config, tuning_.view);
   check(tuning);  // the server's own clamp lets NaN pass

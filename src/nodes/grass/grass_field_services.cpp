@@ -115,7 +115,10 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
   out.inside = u >= 0.0 && v >= 0.0 && u <= law.columns - 1.0 && v <= law.rows - 1.0;
   if (!out.inside) return out;
   const grass::Features f = map.at(x, y);
-  out.height = f.height;
+  const grass::CutNode cut = field_->tread().cuts().at({x, y});
+  out.height = field_->heightAt({x, y});
+  out.cut = double{cut.height} < f.height;
+  out.swath = cut.swath;
   out.density = f.density;
   out.colour = f.colour;
   out.shape = f.shape;
@@ -159,6 +162,37 @@ bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& 
     }
     return std::to_string(response.samples.size()) + " samples";
   });
+}
+
+bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    grass::CutArea area = fromMsg(request.cut, "");
+    const Pose to_world = poseOf(request.header.frame_id);
+    for (auto* outline : {&area.outline, &area.swath})
+      for (grass::Point& point : *outline) {
+        const Vec3 p = transformed(to_world, Vec3(point.x, point.y, 0.0));
+        point = {p.x(), p.y()};
+      }
+    field_->checkCut(area);
+    GrassEvent event;
+    event.kind = GrassEvent::CUT;
+    event.header.stamp = effectOf(request.header.stamp, clock_);
+    event.cut = toMsg(area);
+    enqueue(std::move(event));
+    return "takes effect at the next tick";
+  });
+}
+
+// The tools of a replay are recorded areas.
+bool GrassField::onCutting(std_srvs::SetBool::Request& request,
+                           std_srvs::SetBool::Response& response) {
+  response.success = !options_.replay;
+  response.message = options_.replay ? "a replay follows its recorded events only"
+                     : request.data  ? "cutters are on"
+                                     : "cutters are off";
+  if (!options_.replay) cutters_.setEnabled(request.data != 0);
+  return true;
 }
 
 bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& response) {

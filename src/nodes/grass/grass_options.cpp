@@ -47,17 +47,36 @@ FollowedSource readSource(YamlSection& section) {
   return out;
 }
 
-std::vector<FollowedSource> readSources(YamlSection& section) {
-  std::vector<FollowedSource> out;
+FollowedCutter readCutter(YamlSection& section) {
+  FollowedCutter out;
+  section.text("frame", out.frame);
+  out.name = out.frame;
+  section.text("name", out.name);
+  if (out.frame.empty()) section.fault("frame", "is missing");
+  if (!out.frame.empty() && out.frame[0] == '/')
+    section.fault("frame", "= '" + out.frame + "' begins with '/'");
+  section.vector("offset", out.offset, "m", {-100.0, 100.0});
+  double height_gate = 0.0;
+  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
+  if (section.has("height_gate")) out.height_gate = height_gate;
+  describe(section, out.cutter);
+  section.finish();
+  return out;
+}
+
+// Reads a list of sources or cutters, whose names are unique.
+template <class Item>
+std::vector<Item> readFollowed(YamlSection& section, const char* key, Item (*read)(YamlSection&)) {
+  std::vector<Item> out;
   std::set<std::string> names;
-  for (YamlSection& entry : section.sections("sources")) {
-    out.push_back(readSource(entry));
+  for (YamlSection& entry : section.sections(key)) {
+    out.push_back(read(entry));
     if (!names.insert(out.back().name).second)
-      section.fault("sources", "names '" + out.back().name + "' twice");
+      section.fault(key, "names '" + out.back().name + "' twice");
   }
   if (out.size() > MOST_FOLLOWED_SOURCES)
-    section.fault("sources", "are " + std::to_string(out.size()) + ", allowed are " +
-                                 std::to_string(MOST_FOLLOWED_SOURCES));
+    section.fault(key, "are " + std::to_string(out.size()) + ", allowed are " +
+                           std::to_string(MOST_FOLLOWED_SOURCES));
   return out;
 }
 
@@ -139,7 +158,7 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.number("cover_density", o.cover_scale.density, "1/m^2", {1.0, 20000.0});
   v.number("cover_resistance", o.cover_scale.resistance, "N s/m", {0.001, 1e8});
   v.number("cover_age", o.cover_scale.age, "s", {1.0, 1e9});
-  v.choice("cover_layer", o.cover_layer, {"crush", "density", "resistance", "age"});
+  v.choice("cover_layer", o.cover_layer, {"crush", "density", "resistance", "age", "cut"});
   describe(v, o.tuning);
 }
 
@@ -150,7 +169,8 @@ GrassScene loadGrassScene(const std::string& name) {
   if (file.has("grass")) {
     YamlSection section = file.section("grass");
     out.grass = grass::readScene(section, file.folder(), out.seed, file.faults());
-    out.sources = readSources(section);
+    out.sources = readFollowed(section, "sources", readSource);
+    out.cutters = readFollowed(section, "cutters", readCutter);
     section.finish();
   } else {
     grass::MapInput bare;
@@ -170,12 +190,17 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle) {
   readScenario(parameters, out, loadGrassScene);
   out.tuning.tread = out.scene.grass.layout.tread;
   out.sources = out.scene.sources;
+  out.cutters = out.scene.cutters;
   readFollowedViewer(parameters, out);
   describe(parameters, out);
   YAML::Node list;
   if (parameters.list("sources", list)) {
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
-    out.sources = readSources(section);
+    out.sources = readFollowed(section, "sources", readSource);
+  }
+  if (parameters.list("cutters", list)) {
+    YamlSection section(list, private_handle.getNamespace(), parameters.faults());
+    out.cutters = readFollowed(section, "cutters", readCutter);
   }
   if (parameters.faults().empty()) checkCover(out, parameters);
   if (parameters.faults().empty()) grass::check(out.tuning.tread, "tread_", parameters.faults());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
+#include "grass/tread/cutter.h"
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
 #include "nodes/grass/grass_cover.h"
@@ -43,10 +44,20 @@ struct FollowedSource {
 };
 constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
 
+/// A cutting tool that the node finds by itself.
+struct FollowedCutter {
+  std::string name;
+  std::string frame;                  ///< tf frame, whose x axis is the heading
+  Vec3 offset{Vec3::Zero()};          ///< of the middle of the footprint in that frame [m]
+  std::optional<double> height_gate;  ///< none: the node's [m]
+  grass::Cutter cutter;
+};
+
 /// The meadow of a scenario file.
 struct GrassScene : SceneBase {
   grass::Scene grass;
   std::vector<FollowedSource> sources;
+  std::vector<FollowedCutter> cutters;
 };
 /// No file gives the default meadow, a file without `grass` one without grass.
 /// @throws InvalidInput with all faults of the file.
@@ -62,6 +73,7 @@ struct GrassOptions : NodeOptions {
   CoverScale cover_scale;         ///< values that count as 100
   CoverLayer cover_layer{CoverLayer::CRUSH};  ///< of grass/cover
   std::vector<FollowedSource> sources;
+  std::vector<FollowedCutter> cutters;
   GrassTuning tuning;  ///< initial values for dynamic_reconfigure
   GrassScene scene;
 };

@@ -139,7 +139,11 @@ void place(const Tile& tile, const BladeRoot<T>& root, const Bent<T>& bent,
 template <class T, class Put>
 void poseOne(const Tile& tile, const TilePlan<T>& plan, const TileMotion& motion, int blade,
              Put&& put) {
-  const BladeRoot<T> root(tile, plan, blade);
+  BladeRoot<T> root(tile, plan, blade);
+  if (motion.crush && !motion.crush->cut.empty())
+    root.length =
+        std::min(root.length, T(motion.crush->cut[motion.crush->nearest(
+                                  static_cast<float>(root.u), static_cast<float>(root.v))]));
   const Bend<T> bend = bendOf(tile, plan, root);
   Bent<T> bent{T(0), bend.size, bend.direction};
   if (motion.crush && motion.crush->cells > 0) bent = trodden(bend, *motion.crush, root.u, root.v);

@@ -179,6 +179,17 @@ GrassState toMsg(const grass::TreadUpdate& update) {
     }
     out.blocks.push_back(std::move(message));
   }
+  for (const grass::CutBlockDelta& block : update.treads.cuts) {
+    CutBlock message;
+    message.row = block.row;
+    message.column = block.column;
+    std::copy(block.included.begin(), block.included.end(), message.included.begin());
+    for (const grass::CutNode& node : block.nodes) {
+      message.height.push_back(node.height);
+      message.swath.push_back(node.swath);
+    }
+    out.cuts.push_back(std::move(message));
+  }
   return out;
 }
 
@@ -193,9 +204,10 @@ grass::TreadUpdate fromMsg(const GrassState& message) {
   if (message.press_stamps.size() != message.press_recoveries.size())
     faults.add("state: " + std::to_string(message.press_stamps.size()) + " press_stamps for " +
                std::to_string(message.press_recoveries.size()) + " press_recoveries");
-  if (message.blocks.size() > MOST_BLOCKS)
-    faults.add("state: " + std::to_string(message.blocks.size()) + " blocks, allowed are " +
-               std::to_string(MOST_BLOCKS));
+  for (const std::size_t blocks : {message.blocks.size(), message.cuts.size()})
+    if (blocks > MOST_BLOCKS)
+      faults.add("state: " + std::to_string(blocks) + " blocks, allowed are " +
+                 std::to_string(MOST_BLOCKS));
   faults.throwIfAny();
   for (std::size_t i = 0; i < message.press_stamps.size(); ++i)
     out.treads.presses.push_back({fromMsg(message.press_stamps[i]), message.press_recoveries[i]});
@@ -209,6 +221,16 @@ grass::TreadUpdate fromMsg(const GrassState& message) {
     for (std::size_t i = 0; i < count; ++i)
       delta.nodes.push_back({block.tilt[i], block.x[i], block.y[i], block.press[i]});
     out.treads.blocks.push_back(std::move(delta));
+  }
+  for (const CutBlock& block : message.cuts) {
+    grass::CutBlockDelta delta{block.row, block.column, {}, {}};
+    std::copy(block.included.begin(), block.included.end(), delta.included.begin());
+    if (block.swath.size() != block.height.size())
+      throw InvalidInput("state: cut block " + std::to_string(block.row) + ", " +
+                         std::to_string(block.column) + ": its lists differ in length");
+    for (std::size_t i = 0; i < block.height.size(); ++i)
+      delta.nodes.push_back({block.height[i], block.swath[i]});
+    out.treads.cuts.push_back(std::move(delta));
   }
   check(out.treads, faults);
   faults.throwIfAny();

@@ -6,6 +6,27 @@
 
 namespace vegetation_sim {
 
+GrassCut toMsg(const grass::CutArea& area) {
+  GrassCut out;
+  for (const grass::Point& p : area.outline) out.outline.push_back(toPoint(Vec3(p.x, p.y, 0.0)));
+  for (const grass::Point& p : area.swath) out.swath.push_back(toPoint(Vec3(p.x, p.y, 0.0)));
+  out.radius = area.radius;
+  out.height = area.height;
+  return out;
+}
+
+grass::CutArea fromMsg(const GrassCut& message, const std::string& context) {
+  grass::CutArea out;
+  for (const geometry_msgs::Point& p : message.outline) out.outline.push_back({p.x, p.y});
+  for (const geometry_msgs::Point& p : message.swath) out.swath.push_back({p.x, p.y});
+  out.radius = message.radius;
+  out.height = message.height;
+  Faults faults;
+  check(out, context, faults);
+  faults.throwIfAny();
+  return out;
+}
+
 TreadLaw toMsg(const grass::TreadLaw& law) {
   TreadLaw out;
   out.has_radius = out.has_reach = out.has_softness = out.has_load = out.has_recovery = true;

@@ -67,7 +67,8 @@ void SubscribedMeadow::apply(const GrassState& message) {
       return {false, "Waiting: state belongs to another layout"};
     if (!replica_.apply(update, *tread_))
       return {false, "Waiting for a key frame: " + replica_.why()};
-    if (update.key_frame || !update.treads.blocks.empty()) ++changes_;
+    if (update.key_frame || !update.treads.blocks.empty() || !update.treads.cuts.empty())
+      ++changes_;
     if (!update.key_frame) notePressed(update.treads);
     return {true, "In step"};
   });
@@ -82,11 +83,14 @@ void SubscribedMeadow::notePressed(const grass::TreadDelta& treads) {
   const auto last = [&](int block, int most) {
     return std::min(most - 1, (block * SIDE + SIDE - 1) / cells);
   };
-  for (const grass::TreadBlockDelta& block : treads.blocks)
+  const auto add = [&](const auto& block) {
     for (int row = first(block.row); row <= last(block.row, law.rows - 1); ++row)
       for (int column = first(block.column); column <= last(block.column, law.columns - 1);
            ++column)
         pressed_.insert({row, column});
+  };
+  for (const grass::TreadBlockDelta& block : treads.blocks) add(block);
+  for (const grass::CutBlockDelta& block : treads.cuts) add(block);
 }
 
 void SubscribedMeadow::prune(Nanoseconds stamp) {

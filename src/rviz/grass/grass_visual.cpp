@@ -191,6 +191,7 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   style.slide = view.morph.slide;
   style.eye = eye;
   style.light = &light_;
+  style.crush = motion.crush;
   style.variety = options.variety;
   appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
   report_.blades += static_cast<std::size_t>(count);

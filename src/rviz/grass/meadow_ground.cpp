@@ -48,12 +48,15 @@ void MeadowGround::collect(const SubscribedMeadow& meadow) {
   const auto tileOf = [&](int node, int most) {
     return std::min(most - 1, static_cast<int>(node / cells));
   };
-  for (const auto& [place, block] : meadow.tread().state().blocks)
+  const auto add = [&](const std::pair<int, int>& place) {
     for (int row = tileOf(place.first * SIDE, map_->tileRows());
          row <= tileOf(place.first * SIDE + SIDE - 1, map_->tileRows()); ++row)
       for (int column = tileOf(place.second * SIDE, map_->tileColumns());
            column <= tileOf(place.second * SIDE + SIDE - 1, map_->tileColumns()); ++column)
         all.insert({row, column});
+  };
+  for (const auto& entry : meadow.tread().state().blocks) add(entry.first);
+  for (const auto& entry : meadow.tread().cuts().state().blocks) add(entry.first);
   round_.assign(all.begin(), all.end());
 }
 

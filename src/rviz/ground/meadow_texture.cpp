@@ -12,6 +12,8 @@ namespace {
 
 constexpr int MOST_PIXELS = 2048, MOST_PER_TILE = 32;
 constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
+constexpr Rgba STUBBLE{0.52f, 0.56f, 0.26f, 1.f}, HAY{0.62f, 0.56f, 0.31f, 1.f};
+constexpr double HALF_HIDDEN = 0.12;   // cut grass that hides half of what is below [kg/m^2]
 constexpr float UNDER = 0.48f;         // share of light that closed grass blocks
 constexpr double MEADOW_BORDER = 3.0;  // [m] over which the edge fades into the surroundings
 
@@ -80,7 +82,20 @@ MeadowPainter::MeadowPainter(const grass::FeatureMap& map, const terrain::Height
   plot_ = {map.law().origin_x, map.law().origin_y, map.law().resolution * tiles};
 }
 
-Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying) const {
+MeadowPainter::Ground MeadowPainter::groundAt(const grass::CrushPatch& patch, double x, double y,
+                                              double u, double v) const {
+  Ground out;
+  out.crush = crushAt(patch, u, v, out.lying);
+  if (patch.cut.empty()) return out;
+  const std::size_t node = patch.nearest(static_cast<float>(u), static_cast<float>(v));
+  const double height = map_.at(x, y).height;
+  if (height > 0.0) out.cut = saturate(1.0 - double{patch.cut[node]} / height);
+  out.swath = double{patch.swath[node]};
+  return out;
+}
+
+Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
+  const Vec3& lying = ground.lying;
   const grass::MapLaw& law = map_.law();
   const Vec3 normal = terrain_.normal(x, y);
   const Rgba open = openLight(daylight_, normal);
@@ -97,7 +112,7 @@ Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying
   const grass::Features f = map_.at(x, y);
   const auto cover = static_cast<float>(saturate(1.6 * f.density / full_));
   grass::BladePiece piece;
-  const auto down = static_cast<float>(crush);
+  const auto down = static_cast<float>(ground.crush);
   piece.flat = 0.12f + 0.7f * down * down;
   piece.way = 0.72f + 0.1f * down;
   // The shine of lodged grass depends on its direction, here for a view along the sunlight.
@@ -114,8 +129,15 @@ Rgba MeadowPainter::colourAt(double x, double y, double crush, const Vec3& lying
     const float soil = SOIL[i] * open[i] * (1.f + 0.6f * fine);
     out[i] = soil + (grass - soil) * cover;
   }
+  const auto cut = static_cast<float>(ground.cut);
+  const auto hay = static_cast<float>(1.0 - 1.0 / (1.0 + ground.swath / HALF_HIDDEN)) *
+                   std::min(1.f, std::max(0.f, 1.f + 2.f * fine));
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] += (STUBBLE[i] * open[i] * lightness * tint_[i] - out[i]) * 0.55f * cut * cover;
+    out[i] += (HAY[i] * open[i] * lightness * tint_[i] - out[i]) * hay;
+  }
   out = mix(land, out, static_cast<float>(smoothStep(inside / MEADOW_BORDER)));
-  out[3] = 1.f - UNDER * cover * (1.f - 0.55f * down);
+  out[3] = 1.f - UNDER * cover * (1.f - 0.55f * down) * (1.f - 0.8f * cut);
   return out;
 }
 
@@ -125,7 +147,7 @@ Image MeadowPainter::whole() const {
   for (int r = 0; r < edge_; ++r)
     for (int c = 0; c < edge_; ++c)
       out.at(c, edge_ - 1 - r) =
-          colourAt(plot_.x + (c + 0.5) * pixel, plot_.y + (r + 0.5) * pixel, 0.0, Vec3::Zero());
+          colourAt(plot_.x + (c + 0.5) * pixel, plot_.y + (r + 0.5) * pixel, Ground());
   return out;
 }
 
@@ -135,10 +157,9 @@ Image MeadowPainter::tile(int column, int row, const grass::CrushPatch* patch) c
   for (int r = 0; r < per_tile_; ++r)
     for (int c = 0; c < per_tile_; ++c) {
       const double u = (c + 0.5) / per_tile_, v = (r + 0.5) / per_tile_;
-      Vec3 lying = Vec3::Zero();
-      const double crush = patch && patch->cells > 0 ? crushAt(*patch, u, v, lying) : 0.0;
-      out.at(c, per_tile_ - 1 - r) =
-          colourAt(plot_.x + (column + u) * size, plot_.y + (row + v) * size, crush, lying);
+      const double x = plot_.x + (column + u) * size, y = plot_.y + (row + v) * size;
+      const Ground ground = patch && patch->cells > 0 ? groundAt(*patch, x, y, u, v) : Ground();
+      out.at(c, per_tile_ - 1 - r) = colourAt(x, y, ground);
     }
   return out;
 }

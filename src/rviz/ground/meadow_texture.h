@@ -40,7 +40,15 @@ class MeadowPainter {
   int top(int row) const { return edge_ - (row + 1) * per_tile_; }
 
  private:
-  Rgba colourAt(double x, double y, double crush, const Vec3& lying) const;
+  /// State of the grass at a place.
+  struct Ground {
+    double crush{0.0};         ///< 0 upright to 1 flat
+    Vec3 lying{Vec3::Zero()};  ///< direction of lodged grass times crush
+    double cut{0.0};           ///< removed share of the height
+    double swath{0.0};         ///< cut grass that lies there [kg/m^2]
+  };
+  Ground groundAt(const grass::CrushPatch& patch, double x, double y, double u, double v) const;
+  Rgba colourAt(double x, double y, const Ground& ground) const;
 
   const grass::FeatureMap& map_;
   const terrain::HeightMap& terrain_;

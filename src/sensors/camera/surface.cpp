@@ -14,10 +14,16 @@ namespace {
 
 // Colours in sRGB.
 const Vec3 SOIL(0.36, 0.29, 0.20), LITTER(0.38, 0.30, 0.20), MOSS(0.26, 0.31, 0.13);
-const Vec3 TURF(0.34, 0.40, 0.17), DRY_TURF(0.53, 0.49, 0.28);
+const Vec3 TURF(0.34, 0.40, 0.17), DRY_TURF(0.53, 0.49, 0.28), HAY(0.72, 0.64, 0.36);
 constexpr double LEAF_TRANSMITS = 0.55, BLADE_TRANSMITS = 0.45;
-constexpr double LEAF_SPOT = 0.045;  // size of what has one colour [m]
+constexpr double STUBBLE_DRYNESS = 0.25;  // stems are drier than leaves
+constexpr double HALF_HIDDEN = 0.12;      // cut grass that hides half of what is below [kg/m^2]
+constexpr double LEAF_SPOT = 0.045;       // size of what has one colour [m]
 constexpr std::uint32_t GROUND_KEY = 0x67726fU, BLADE_KEY = 0x626c61U, CLOTH_KEY = 0x636c6fU;
+
+double hayShare(double swath) {
+  return swath / (swath + HALF_HIDDEN);
+}
 
 Vec3 blend(const Vec3& a, const Vec3& b, double share) {
   return a + saturate(share) * (b - a);
@@ -140,10 +146,14 @@ Surface Surfaces::grassAt(const Vec3& place) const {
   const grass::FeatureMap& map = *grass.layout().map;
   const grass::Features here = map.at(place.x(), place.y());
   const double flat = grass.tiltAt(place.x(), place.y()) / grass::BEND_LIMIT;
-  const double top = std::max(0.02, here.height * (1.0 - 0.8 * flat));
+  const GrassVolume::Cut cut = grass.cutAt(place.x(), place.y());
+  const bool is_cut = cut.height < here.height;
+  const double top = std::max(0.02, std::min(cut.height, here.height) * (1.0 - 0.8 * flat));
   const double way = saturate(grass.heightOf(place) / top);
   const Cell column = cellAt({place.x(), place.y(), 0.0}, BLADE_CELL);
   Vec3 colour = grass::meanColour(map, here);
+  if (is_cut) colour = blend(colour, map.species()[0].species.dry_colour, STUBBLE_DRYNESS);
+  colour = blend(colour, HAY, hayShare(cut.swath));
   const double patch = fractalNoise({0.9 * place.x(), 0.9 * place.y(), 0.0}, 3, BLADE_KEY);
   const double own = shareOf(column, BLADE_KEY + 9);
   colour = blend(colour, map.species()[0].species.dry_colour, own * own * own * (0.3 + patch));
@@ -151,7 +161,7 @@ Surface Surfaces::grassAt(const Vec3& place) const {
   for (std::size_t k = 0; k < map.species().size(); ++k) {
     const grass::Species& species = map.species()[k].species;
     const double size = 2.0 * species.flower_radius;
-    if (!(size > 0.0) || way < 0.5) continue;
+    if (!(size > 0.0) || way < 0.5 || is_cut) continue;
     const Cell spot = cellAt(place, size);
     const double share = here.density * here.mix[k] * size * size;
     if (shareOf(spot, BLADE_KEY + 20 + static_cast<std::uint32_t>(k)) < share * (way - 0.5))
@@ -210,6 +220,7 @@ Surface Surfaces::groundAt(const Vec3& place, double open) const {
   if (scene_.grass.isPresent()) {
     const double density = scene_.grass.layout().map->at(place.x(), place.y()).density;
     colour = blend(colour, SOIL, density / 100.0);
+    colour = blend(colour, HAY, hayShare(scene_.grass.cutAt(place.x(), place.y()).swath));
   }
   Surface out;
   out.normal = unit(scene_.ground->normal(place.x(), place.y()) +

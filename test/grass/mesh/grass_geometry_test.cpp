@@ -120,6 +120,14 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   for (int blade = 0; blade < 500; ++blade) flowers += traitsOf(tile, blade).species == 1;
   EXPECT_GT(flowers, 150u);
   EXPECT_EQ(mesh.indices.size(), 3 * (500 * 9 + 6 * flowers));
+  CrushPatch patch = rampPatch(0.f, 0.f, 0.f);
+  patch.cut.assign(patch.tilt.size(), 0.05f);  // the mower takes the flowers
+  patch.swath.assign(patch.tilt.size(), 0.f);
+  RibbonStyle mown;
+  mown.crush = &patch;
+  mesh.clear();
+  appendRibbons(map, tile, blocks.data(), 500, mown, mesh);
+  EXPECT_EQ(mesh.indices.size(), 3u * 500u * 9u);
 }
 
 // S2-10: four strips stand on the four edges, as high as the grass.

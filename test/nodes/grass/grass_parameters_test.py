@@ -24,7 +24,7 @@ WHOLE_NUMBERS = {
     'marker_points': ('', 900, 3000000), 'viewer_height': (' pixel', 1, 100000),
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
-          'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources'}
+          'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources', 'cutters'}
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -57,6 +57,18 @@ SOURCES = [
     ([{'frame': 'a', 'radius': 0.3, 'reach': 0.2}], 'reach = 0.2'),
     (7, "sources = '7' is not a list"),
 ]
+# The same for cutting tools.
+CUTTERS = [
+    ([{'width': 0.2}], "cutters[0]: frame is missing"),
+    ([{'frame': '/deck'}], "frame = '/deck' begins with '/'"),
+    ([{'frame': 'a', 'widht': 3}], 'cutters[0]: widht is not a known key'),
+    ([{'frame': 'a', 'width': 0.0}], 'cutters[0]: width = 0 m is outside 0.01 to 20 m'),
+    ([{'frame': 'a', 'height': -1.0}], 'height = -1 m is outside 0 to 5 m'),
+    ([{'frame': 'a', 'swath_width': 21.0}], 'swath_width = 21 m is outside 0 to 20 m'),
+    ([{'frame': 'a', 'shape': 'star'}], "shape = 'star' is none of box, disc"),
+    ([{'frame': 'a'}, {'frame': 'a'}], "cutters names 'a' twice"),
+    (7, "cutters = '7' is not a list"),
+]
 
 
 class GrassParameters(Ranges, RefusingNode):
@@ -78,7 +90,10 @@ class GrassParameters(Ranges, RefusingNode):
         self.assertIn('reach = 0.3', self.refusal({'tread_radius': 0.3, 'tread_reach': 0.3}))
         self.assertIn('cells, allowed are', self.refusal({'cover_resolution': 0.02}))
 
-    def test_each_bad_source_is_refused(self):
+    def test_each_bad_source_or_cutter_is_refused(self):
+        for cutters, text in CUTTERS:
+            with self.subTest(text=text):
+                self.assertIn(text, self.refusal({'cutters': cutters}))
         for sources, text in SOURCES:
             with self.subTest(text=text):
                 self.assertIn(text, self.refusal({'sources': sources}))

@@ -16,6 +16,7 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, PointStamped, TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+from vegetation_sim.msg import GrassCut
 
 from forest_rig import TickClock, scene, stop
 from grass_rig import RATE, Feet, Meadow, start_meadow, step, time_of
@@ -52,6 +53,9 @@ class GrassReplay(unittest.TestCase):
         second = tick / RATE
         if second == 4:
             self.call(self.grass.tread(points=[Point(-15, -15, 0), Point(15, -10, 0)]))
+        if second in (6, 16):
+            corners = [Point(second - 20 + x, y, 0) for x, y in ((0, 0), (4, 0), (5, 3), (1, 3))]
+            self.call(self.grass.cut(cut=GrassCut(outline=corners, height=0.05)))
         if second == 8:
             self.server.update_configuration({'tread_radius': 0.2, 'tread_recovery': 20.0})
         if second == 11:

@@ -10,7 +10,7 @@ import rostest
 from geometry_msgs.msg import Point, PointStamped, Vector3
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import TreadEvent, TreadLaw
+from vegetation_sim.msg import GrassCover, GrassCut, TreadEvent, TreadLaw
 from visualization_msgs.msg import MarkerArray
 
 from forest_rig import TickClock
@@ -101,6 +101,46 @@ class GrassRequests(unittest.TestCase):
         self.assertEqual(self.grass.at(-10.0, -14.0).tilt, 0.0)
         self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(-10.0, -14.0).tilt, FULL - 1e-6)
+
+    def cut_of(self, height, *places, **fields):
+        return dict(cut=GrassCut(outline=points(*places), height=height, **fields))
+
+    # Stubble and swath are exact; drag and planner's map follow the lower height.
+    def test_a_cut_leaves_stubble_and_swath(self):
+        before = self.grass.at(-17.0, 3.0)
+        self.call(self.grass.cut, **self.cut_of(0.06, (-18.0, 2.0), (-16.0, 2.0), (-16.0, 4.0),
+                                                (-18.0, 4.0)))
+        cut, beside = self.grass.samples([(-17.0, 3.0), (-15.9, 3.0)])
+        self.assertEqual((before.cut, cut.cut, beside.cut), (False, True, False))
+        self.assertAlmostEqual(cut.height, 0.06, places=7)
+        self.assertAlmostEqual(cut.resistance, before.resistance * 0.06 / before.height, places=5)
+        self.assertGreater(cut.swath, 0.01)
+        self.assertEqual(beside.swath, 0.0)
+        log = Log('/grass/cover/values', GrassCover)
+        cover = log.wait(lambda all: all and all[-1], 'the cover map',
+                         lambda: self.clock.run(RATE, self.grass))
+        log.close()
+        info = cover.info
+
+        def index(x, y):
+            return (int((y - info.origin.position.y) / info.resolution) * info.width +
+                    int((x - info.origin.position.x) / info.resolution))
+        self.assertAlmostEqual(cover.cut[index(-17.1, 3.1)], 1.0, places=5)
+        self.assertAlmostEqual(cover.height[index(-17.1, 3.1)], 0.06, places=5)
+        self.assertAlmostEqual(cover.swath[index(-17.1, 3.1)], cut.swath, delta=0.3 * cut.swath)
+        self.assertEqual(cover.cut[index(-15.5, 3.1)], 0.0)
+
+    def test_bad_cuts_are_refused_by_name(self):
+        for text, request in (
+                ('outline has 0 points, allowed are 3 to 1000, or 1 with a radius',
+                 self.cut_of(0.1)),
+                ('outline[0].x = nan m is not finite', self.cut_of(0.1, (NAN, 0), radius=1.0)),
+                ('radius = -1 m is outside 0 to 1000 m',
+                 self.cut_of(0.1, (0, 0), (1, 0), (1, 1), radius=-1.0)),
+                ('height = 9 m is outside 0 to 5 m', self.cut_of(9.0, (0, 0), radius=1.0)),
+                ("'nowhere' is not known in 'map'",
+                 dict(self.cut_of(0.1, (0, 0), radius=1.0), header=Header(frame_id='nowhere')))):
+            self.expect_refused(text, self.grass.cut, **request)
 
     # S2-02, S2-04: a sample has the features of the map, which is twice as dense in the east.
     def test_a_sample_has_all_values_of_a_point(self):

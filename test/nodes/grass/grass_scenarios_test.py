@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the meadow scenarios of the demo without rviz: the rolling stone (S2-29) and the robot leave
-tracks."""
+tracks, the mower cuts."""
 import math
 import signal
 import subprocess
@@ -21,6 +21,7 @@ from waiting import DEADLINE, wait_for
 from watched_node import Log
 
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
+         'mowing': ['/mower', '/grass_field', '/wind_broadcaster'],
          'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
 
 
@@ -71,6 +72,14 @@ class GrassScenarios(unittest.TestCase):
         self.assertGreater(max(math.hypot(w.x, w.y) for w in winds), 8.0)
         self.assertGreater(len({round(s.height, 2) for s in samples}), 5)
         self.assertEqual(self.meadow.diagnostics()['Jumps of sources'], 0)
+
+    def test_a_mower_cuts_a_meadow(self):
+        self.start('mowing')
+        self.run_until(lambda: self.meadow.at(-3.0, -4.5).swath > 0.0, 'a mower that cuts')
+        cut, beside = self.meadow.samples([(-3.0, -4.5), (-3.0, 2.5)])
+        self.assertTrue(cut.cut)
+        self.assertAlmostEqual(cut.height, 0.06, places=6)
+        self.assertFalse(beside.cut)
 
     def test_a_robot_leaves_the_tracks_of_its_wheels(self):
         self.start('meadow_robot')

@@ -10,6 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped, WrenchStamped
 from nav_msgs.msg import Odometry
+from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import GrassForces, TreadEvent, WindPrimitive
 from vegetation_sim.srv import SetWindPrimitive
@@ -70,6 +71,26 @@ class GrassSources(unittest.TestCase):
         self.assertGreater(self.grass.at(-4.0, 3.1).direction.y, 0.6)
         self.assertLess(self.grass.at(-4.0, 2.9).direction.y, -0.6)
         self.assertGreater(self.grass.at(-4.0, 2.9).direction.x, 0.6)
+
+    # A bar of 0.1 m that moves by 0.3 m a tick leaves no gap; above its gate or off it cuts nothing.
+    def test_a_cutter_mows_a_lane(self):
+        self.fly(20, lambda s: ('blade', -16.0 + 6.0 * s, -17.0, 0.1))
+        lane = self.grass.samples([(-16.0 + 0.05 * i, -17.0 + side) for i in range(120)
+                                   for side in (-0.45, 0.0, 0.45)])
+        self.assertEqual({s.cut for s in lane}, {True})
+        self.assertAlmostEqual(max(s.height for s in lane), 0.07, places=6)
+        self.assertEqual({s.cut for s in self.grass.samples([(-13.0, -16.4), (-13.0, -17.6)])}, {False})
+        self.assertGreater(self.grass.at(-13.0, -17.0).swath, 0.0)
+        self.assertEqual(self.grass.at(-13.0, -16.6).swath, 0.0)
+        self.fly(20, lambda s: ('blade', -9.0 + 6.0 * s, -17.0, 0.3))
+        self.assertFalse(self.grass.at(-6.0, -17.0).cut)
+        switch = rospy.ServiceProxy('/grass_field/cutting', SetBool)
+        self.assertTrue(switch(False).success)
+        self.fly(20, lambda s: ('blade', -9.0 + 6.0 * s, -17.0, 0.1))
+        self.assertFalse(self.grass.at(-6.0, -17.0).cut)
+        self.assertTrue(switch(True).success)
+        self.fly(20, lambda s: ('blade', -9.0 + 6.0 * s, -17.0, 0.1))
+        self.assertTrue(self.grass.at(-6.0, -17.0).cut)
 
     def test_an_offset_and_a_gate_of_its_own(self):
         self.fly(RATE, lambda s: ('mower', 2.0, 8.0 + s, 0.25, math.pi / 2))

@@ -16,7 +16,7 @@ from grass_rig import FULL, RATE, Feet, Meadow, nodes_of, step, time_of
 from waiting import wait_for
 from watched_node import Log
 
-LAYERS = ('crush', 'density', 'resistance', 'age')
+LAYERS = ('crush', 'density', 'resistance', 'age', 'cut')
 
 
 class GrassState(unittest.TestCase):

@@ -8,7 +8,7 @@ import roslib.packages
 import rospy
 from geometry_msgs.msg import Point
 from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent, TreadLaw
-from vegetation_sim.srv import ClearGrass, SampleGrass, Tread
+from vegetation_sim.srv import ClearGrass, CutGrass, SampleGrass, Tread
 
 from forest_rig import RATE, time_of
 from given import given
@@ -27,6 +27,7 @@ class Meadow(WatchedNode):
         self.state = Log(namespace + 'grass/state', GrassState)
         self.events = Log(namespace + 'grass/events', GrassEvent)
         self.tread = rospy.ServiceProxy(name + '/tread', Tread)
+        self.cut = rospy.ServiceProxy(name + '/cut', CutGrass)
         self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
         super().__init__(name, 'grass', name + '/sample', SampleGrass)
 

@@ -7,6 +7,7 @@ import rostest
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, PointStamped
 from std_msgs.msg import Header
+from vegetation_sim.msg import GrassCut
 
 from forest_rig import time_of
 from grass_rig import Feet, Meadow, step
@@ -34,6 +35,9 @@ class GrassSnapshot(SnapshotCase):
             node.feet.send(step('robot', -4.0 + 0.04 * tick, 1.0))
         if tick == 30:
             Client(node.name).update_configuration({'tread_radius': 0.2, 'tread_recovery': 30.0})
+        if tick in (35, 111):
+            area = GrassCut(outline=[Point(0.01 * tick, -1, 0)], radius=0.8, height=0.05)
+            self.assertTrue(meadow.cut(cut=area).success)
         if tick == 50:  # waits while the state is saved
             answer = meadow.tread(header=Header(stamp=time_of(START + 100)),
                                   points=points((0, 0), (3, 2)))

@@ -88,6 +88,27 @@ TEST_F(GrassStateConversions, ReturnTroddenGroundToTheBit) {
   EXPECT_EQ(back.layout_hash, layout_.hash());
 }
 
+TEST_F(GrassStateConversions, ReturnCutGroundToTheBit) {
+  grass::CutArea area;
+  area.outline = {{3.0, 3.0}, {6.0, 3.0}, {5.0, 7.0}};
+  area.swath = {{3.0, 3.0}, {4.0, 3.0}, {4.0, 4.0}};
+  const grass::CutArea same = fromMsg(toMsg(area), "");
+  EXPECT_EQ(same.outline[2].y, 7.0);
+  EXPECT_EQ(same.swath[2].x, 4.0);
+  EXPECT_EQ(same.height, area.height);
+  field_.cut(area);
+  const grass::TreadUpdate update = field_.update(true);
+  GrassState message = toMsg(update);
+  EXPECT_FALSE(message.cuts.empty());
+  EXPECT_EQ(hashOf(fromMsg(message).treads), update.hash);
+  message.cuts[0].height[0] = -1.f;
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("height = -1 m is outside 0 to"),
+            std::string::npos);
+  message.cuts[0].height.pop_back();
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("its lists differ in length"),
+            std::string::npos);
+}
+
 TEST_F(GrassStateConversions, RejectInvalidStates) {
   drive("a", 3.0, 5.0, 1.0, 5);
   GrassState message = toMsg(field_.update(true));

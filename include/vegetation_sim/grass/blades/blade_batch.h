@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "vegetation_sim/grass/blades/blade.h"
@@ -19,10 +20,22 @@ struct alignas(64) BladeBlock {
   float x[POINTS][BLOCK], y[POINTS][BLOCK], z[POINTS][BLOCK];
 };
 
-/// Trodden ground of a tile at one instant: a grid of tilts, and of tilts times their directions.
+/// Longest blade where nothing was cut [m].
+constexpr float UNCUT = 1e9f;
+
+/// Trodden and cut ground of a tile at one instant: a grid of tilts, and of tilts times their
+/// directions; and if any of it is cut, of the longest blades and the cut grass that lies there.
 struct CrushPatch {
-  int cells{0};                     ///< cells along each side; 0: untrodden
+  int cells{0};                     ///< cells along each side; 0: neither trodden nor cut
   std::vector<float> tilt, tx, ty;  ///< [(cells + 1) x (cells + 1)] [rad], south row first
+  std::vector<float> cut, swath;    ///< likewise [m], [kg/m^2]; empty if nothing is cut
+
+  /// Returns the index of the node that is nearest to a place of the tile, in shares of its side.
+  std::size_t nearest(float u, float v) const {
+    const auto n = static_cast<float>(cells);
+    const auto column = static_cast<std::size_t>(u * n + 0.5f);
+    return static_cast<std::size_t>(v * n + 0.5f) * static_cast<std::size_t>(cells + 1) + column;
+  }
 };
 
 /// The causes that bend the blades of a tile at one instant.

@@ -11,6 +11,7 @@
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/grass/blades/blade_batch.h"
+#include "vegetation_sim/grass/tread/cut_map.h"
 #include "vegetation_sim/grass/tread/tread_law.h"
 
 namespace vegetation_sim::grass {
@@ -18,7 +19,8 @@ namespace vegetation_sim::grass {
 struct TreadSettings {
   /// wanted spacing of the fine nodes; rounded so that it divides a tile [m]
   double spacing{0.05};
-  double memory_cap{128e6};    ///< limit for trodden ground and the doses of sources [bytes]
+  /// limit for trodden ground and the doses of sources, and as much for cut ground [bytes]
+  double memory_cap{128e6};
   double longest_stroke{5.0};  ///< A longer step is a jump, which leaves no track [m].
   double top_speed{40.0};      ///< A faster step is a jump, too [m/s].
 };
@@ -146,7 +148,8 @@ class TreadMap {
 
   /// Returns the nearest node as it is at a stamp; its tilt is 0 if it is untrodden.
   TreadNode at(const Point& place, Nanoseconds stamp) const;
-  /// Fills the patch of a tile, with 0 cells if it is untrodden. `out` keeps its memory.
+  /// Fills the patch of a tile, with 0 cells if it is neither trodden nor cut. `out` keeps its
+  /// memory.
   void patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const;
 
   /// Frees blocks that have recovered.
@@ -156,6 +159,10 @@ class TreadMap {
   void raise(const Point& place, double radius);
   /// Sets a node of a replica. @return false if it is not on the map or memory is full.
   bool put(int row, int column, const TreadNode& node);
+
+  /// Cut grass, which raise(), restore() and prune() leave.
+  CutMap& cuts() { return cuts_; }
+  const CutMap& cuts() const { return cuts_; }
 
   const TreadState& state() const { return state_; }
   void restore(TreadState state);
@@ -188,6 +195,7 @@ class TreadMap {
   TreadSettings settings_;
   int cells_;  ///< fine cells along a tile
   double spacing_, per_spacing_;
+  CutMap cuts_;
   TreadState state_;
   std::size_t doses_count_{0};  ///< of all sources
   RecentTable<RecentBlock, 16> recent_blocks_;

@@ -33,10 +33,18 @@ struct TreadBlockDelta {
 };
 static_assert(TreadBlock::SIDE * TreadBlock::SIDE == 8 * 32, "TreadBlockDelta::included");
 
-/// Trodden nodes in a message: without loss, 16 bytes a node.
+/// Some nodes of a block of cut ground, without loss.
+struct CutBlockDelta {
+  int row{0}, column{0};                    ///< index of the block
+  std::array<std::uint8_t, 32> included{};  ///< as in TreadBlockDelta
+  std::vector<CutNode> nodes;               ///< included nodes in the order of i
+};
+
+/// Trodden nodes in a message: without loss, 16 bytes a node; and cut nodes, 12 bytes each.
 struct TreadDelta {
   std::vector<Press> presses;
   std::vector<TreadBlockDelta> blocks;
+  std::vector<CutBlockDelta> cuts;
 };
 
 /// Selects nodes that were pressed after `since` and are not upright at `stamp`.
@@ -44,8 +52,12 @@ struct TreadInterval {
   Nanoseconds since{0}, stamp{0};
 };
 
-/// Returns all nodes that are not upright.
+/// Returns all nodes that are not upright; the caller adds the cuts.
 TreadDelta snapshotTreads(const TreadState& state, Nanoseconds stamp);
+/// Returns all cut nodes.
+std::vector<CutBlockDelta> snapshotCuts(const CutState& state);
+/// Returns these nodes.
+std::vector<CutBlockDelta> makeCutDelta(const CutState& state, const CutMap::Nodes& nodes);
 /// Returns the nodes of these blocks that belong to the interval.
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
                      const TreadInterval& interval);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/GrassCut.h>
 #include <vegetation_sim/GrassLayout.h>
 #include <vegetation_sim/GrassState.h>
 #include <vegetation_sim/TreadEvent.h>
@@ -25,6 +26,10 @@ grass::Layout fromMsg(const GrassLayout& message);
 GrassState toMsg(const grass::TreadUpdate& update);
 /// @throws InvalidInput for what cannot be.
 grass::TreadUpdate fromMsg(const GrassState& message);
+
+GrassCut toMsg(const grass::CutArea& area);
+/// @throws InvalidInput with all values that are not finite or out of range.
+grass::CutArea fromMsg(const GrassCut& message, const std::string& context);
 
 TreadLaw toMsg(const grass::TreadLaw& law);
 /// Numbers that are not given are the node's `own`; reach and softness then are in proportion to
