@@ -5,8 +5,7 @@
 push aside; or lane by lane over a meadow, if ~lanes is above 0.
 
 It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches and
-canopy/contacts. Its bodies are the parameter ~bodies of forest_animator and canopy_animator
-(config/mower.yaml).
+canopy/contacts. config/robots/mower.urdf has its collision geometry.
 """
 import math
 from collections import deque
