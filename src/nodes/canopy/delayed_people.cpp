@@ -25,9 +25,10 @@ void DelayedPeople::subscribe(ros::NodeHandle handle, const std::string& topic) 
   crowd_.subscribe(handle, topic);
 }
 
-// Messages come in the order of their stamps: after one of a later stamp none is due.
+// Messages come in the order of their stamps: after one of a later tick none is due. A message of a
+// far stamp is of another clock.
 bool DelayedPeople::isDue(Nanoseconds before) const {
-  return crowd_.isPublished() && crowd_.waiting() == 0 &&
+  return crowd_.isPublished() && !crowd_.hasWaiting(before + NANOSECONDS_PER_SECOND) &&
          crowd_.stamp() + std::max<Nanoseconds>(1, period_) <= before;
 }
 
@@ -55,7 +56,6 @@ void DelayedPeople::advance(Nanoseconds before) {
 void DelayedPeople::forgetLater(Nanoseconds now) {
   queue_.callAvailable();
   crowd_.forgetLater(now);
-  period_ = 0;
 }
 
 }  // namespace vegetation_sim

@@ -40,32 +40,74 @@ void addTreads(const grass::TreadSimulation& field, double resolution, GrassCove
     }
 }
 
-// Only cut blocks are visited. A node counts for the square around it.
-void addCuts(const grass::TreadSimulation& field, double resolution, GrassCover& cover) {
-  const int rows = static_cast<int>(cover.info.height),
-            columns = static_cast<int>(cover.info.width);
-  cover.cut.assign(cover.density.size(), 0.f);
-  cover.swath.assign(cover.density.size(), 0.f);
-  const double spacing = field.tread().spacing() / resolution;
-  // A cell that is smaller than the spacing takes the value of a node as its own.
-  const double part = std::min(1.0, spacing * spacing);
-  std::vector<double> removed(cover.density.size(), 0.0);
-  for (const auto& [place, block] : field.tread().cuts().state().blocks)
-    for (int i = 0; i < SIDE * SIDE; ++i) {
-      const grass::CutNode& node = block.nodes[static_cast<std::size_t>(i)];
-      const int column = static_cast<int>((place.second * SIDE + i % SIDE) * spacing);
-      const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
-      const std::size_t cell = static_cast<std::size_t>(std::min(row, rows - 1)) * columns +
-                               std::min(column, columns - 1);
-      cover.swath[cell] += static_cast<float>(part * node.swath);
-      const double cut = double{cover.height[cell]} - double{node.height};
-      if (!(cut > 0.0)) continue;
-      cover.cut[cell] = std::min(1.f, cover.cut[cell] + static_cast<float>(part));
-      removed[cell] += part * cut;
-    }
-  for (std::size_t i = 0; i < removed.size(); ++i)
-    cover.height[i] = std::max(0.f, cover.height[i] - static_cast<float>(removed[i]));
+// Returns the number of nodes in each cell along an axis; `spacing` is that of nodes over that of
+// cells. Nodes on the far border are in the last cell.
+std::vector<int> nodesAlong(int cells, int nodes, double spacing) {
+  std::vector<int> out(static_cast<std::size_t>(cells), 0);
+  for (int i = 0; i < nodes; ++i)
+    ++out[static_cast<std::size_t>(std::min(static_cast<int>(i * spacing), cells - 1))];
+  return out;
 }
+
+// Takes the mean over the nodes of a cell, or the node that is nearest to the middle of a cell
+// without any. Only cut blocks are visited if every cell has nodes.
+class CutLayers {
+ public:
+  CutLayers(const grass::TreadSimulation& field, double resolution, GrassCover& cover)
+      : field_(field), resolution_(resolution), cover_(cover) {
+    cover_.cut.assign(cover_.density.size(), 0.f);
+    cover_.swath.assign(cover_.density.size(), 0.f);
+    removed_.assign(cover_.density.size(), 0.0);
+  }
+
+  void fill() {
+    const grass::CutState& state = field_.tread().cuts().state();
+    if (state.blocks.empty()) return;
+    const grass::MapLaw& law = field_.layout().map->law();
+    const int rows = static_cast<int>(cover_.info.height);
+    const int columns = static_cast<int>(cover_.info.width);
+    const double step = field_.tread().spacing(), spacing = step / resolution_;
+    const auto count = [&](int tiles) {
+      return static_cast<int>(std::lround((tiles - 1) * law.resolution / step)) + 1;
+    };
+    const std::vector<int> in_row = nodesAlong(rows, count(law.rows), spacing);
+    const std::vector<int> in_column = nodesAlong(columns, count(law.columns), spacing);
+    for (const auto& [place, block] : state.blocks)
+      for (int i = 0; i < SIDE * SIDE; ++i) {
+        const auto row = static_cast<std::size_t>(
+            std::min(static_cast<int>((place.first * SIDE + i / SIDE) * spacing), rows - 1));
+        const auto column = static_cast<std::size_t>(
+            std::min(static_cast<int>((place.second * SIDE + i % SIDE) * spacing), columns - 1));
+        add(row, column, block.nodes[static_cast<std::size_t>(i)], in_row[row] * in_column[column]);
+      }
+    for (std::size_t row = 0; row < in_row.size(); ++row)
+      for (std::size_t column = 0; column < in_column.size(); ++column)
+        if (in_row[row] * in_column[column] == 0)
+          add(row, column,
+              field_.tread().cuts().at(
+                  {law.origin_x + (static_cast<double>(column) + 0.5) * resolution_,
+                   law.origin_y + (static_cast<double>(row) + 0.5) * resolution_}),
+              1);
+    for (std::size_t i = 0; i < removed_.size(); ++i)
+      cover_.height[i] = std::max(0.f, cover_.height[i] - static_cast<float>(removed_[i]));
+  }
+
+ private:
+  void add(std::size_t row, std::size_t column, const grass::CutNode& node, int nodes) {
+    const std::size_t cell = row * cover_.info.width + column;
+    const double part = nodes > 0 ? 1.0 / nodes : 0.0;
+    cover_.swath[cell] += static_cast<float>(part * node.swath);
+    const double cut = double{cover_.height[cell]} - double{node.height};
+    if (!(cut > 0.0)) return;
+    cover_.cut[cell] = std::min(1.f, cover_.cut[cell] + static_cast<float>(part));
+    removed_[cell] += part * cut;
+  }
+
+  const grass::TreadSimulation& field_;
+  double resolution_;
+  GrassCover& cover_;
+  std::vector<double> removed_;  // height by cell [m]
+};
 
 std::int8_t percent(double share) {
   return static_cast<std::int8_t>(std::floor(100.0 * std::clamp(share, 0.0, 1.0) + 0.5));
@@ -96,7 +138,7 @@ GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, doubl
   GrassCover out = std::move(ground);
   out.header.stamp = toStamp(field.stamp());
   addTreads(field, resolution, out);
-  addCuts(field, resolution, out);
+  CutLayers(field, resolution, out).fill();
   for (std::size_t i = 0; i < out.density.size(); ++i)
     out.resistance.push_back(static_cast<float>(field.drag()) * out.density[i] * out.height[i] *
                              std::max(0.f, 1.f - out.crush[i]));

@@ -13,10 +13,22 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double TURNED_OR_MOVED = 1e-6;  // [m] or [rad]
-constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 50;
+constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 58;
 
 grass::CutterPose poseOf(const GrassCutters::LastCut& cut) {
   return {{cut.position.x(), cut.position.y()}, {cut.heading.x(), cut.heading.y()}};
+}
+
+bool isJump(const GrassCutters::LastCut& from, const GrassCutters::LastCut& to,
+            const grass::TreadSettings& settings) {
+  const double way = length(to.position - from.position);
+  const double seconds = secondsBetween(from.stamp, to.stamp);
+  return !(way <= settings.longest_stroke && way <= settings.top_speed * seconds);
+}
+
+bool stands(const GrassCutters::LastCut& from, const GrassCutters::LastCut& to) {
+  return length(to.position - from.position) <= TURNED_OR_MOVED &&
+         length(to.heading - from.heading) <= TURNED_OR_MOVED;
 }
 
 }  // namespace
@@ -48,6 +60,7 @@ void GrassCutters::archive(Archive& a, State& state) {
       [&a](const std::string&, LastCut& last) {
         a.vector("position of a cutter", last.position);
         a.vector("heading of a cutter", last.heading);
+        a.stamp("stamp of a cutter", last.stamp);
       });
 }
 
@@ -63,14 +76,15 @@ std::optional<GrassCutters::LastCut> GrassCutters::find(const FollowedCutter& cu
     heading.z() = 0.0;
     const double size = length(heading);
     if (!(size > TURNED_OR_MOVED)) return std::nullopt;
-    return LastCut{transformed(to_world, cutter.offset), heading / size};
+    return LastCut{transformed(to_world, cutter.offset), heading / size, now};
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
 }
 
 std::vector<grass::CutArea> GrassCutters::update(Nanoseconds now, const terrain::HeightMap& terrain,
-                                                 double height_gate, double longest) {
+                                                 double height_gate,
+                                                 const grass::TreadSettings& settings) {
   std::vector<grass::CutArea> out;
   missing_.clear();
   if (!state_.enabled) return out;
@@ -86,11 +100,11 @@ std::vector<grass::CutArea> GrassCutters::update(Nanoseconds now, const terrain:
       continue;
     }
     const auto found = state_.last.find(cutter.name);
-    const bool is_new =
-        found == state_.last.end() || !(length(here->position - found->second.position) <= longest);
-    if (!is_new && length(here->position - found->second.position) <= TURNED_OR_MOVED &&
-        length(here->heading - found->second.heading) <= TURNED_OR_MOVED)
+    const bool is_new = found == state_.last.end() || isJump(found->second, *here, settings);
+    if (!is_new && stands(found->second, *here)) {
+      found->second.stamp = now;
       continue;
+    }
     const grass::CutterPose pose = poseOf(*here);
     if (is_new)
       out.push_back(footprintOf(cutter.cutter, pose));

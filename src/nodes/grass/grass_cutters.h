@@ -22,6 +22,7 @@ class GrassCutters {
   /// Where a tool was at its last tick.
   struct LastCut {
     Vec3 position{Vec3::Zero()}, heading{Vec3::Zero()};
+    Nanoseconds stamp{0};
   };
   /// State to be saved: whether tools cut, and the last places of those on the ground by name.
   struct State {
@@ -34,10 +35,10 @@ class GrassCutters {
                const tf2_ros::Buffer& buffer, double wait);
 
   /// Returns the areas that the tools have swept since the last call, in the order of the tools. A
-  /// tool that was missing, higher than its gate or off cuts its footprint first, as does one that
-  /// was farther away than `longest` [m].
+  /// tool that was missing, higher than its gate or off cuts its footprint first, as does one whose
+  /// step is a jump by `longest_stroke` or `top_speed`.
   std::vector<grass::CutArea> update(Nanoseconds now, const terrain::HeightMap& terrain,
-                                     double height_gate, double longest);
+                                     double height_gate, const grass::TreadSettings& settings);
   void setEnabled(bool enabled);
   /// Forgets all places, after a jump of time.
   void clear() { state_.last.clear(); }
@@ -46,6 +47,8 @@ class GrassCutters {
   void restore(State state);
   static void archive(Archive& a, State& state);
   MissingInputs& missing() { return missing_; }
+  /// Number of transforms that have not come in time for their tick.
+  std::size_t late() const { return lookup_.late(); }
 
  private:
   std::optional<LastCut> find(const FollowedCutter& cutter, Nanoseconds now);

@@ -40,6 +40,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
         std::string("grass/cover/") + COVER_LAYERS[i], 1);
   publishLayout();
   start("grass", "grass/markers", *markers_);
+  cutters_.clear();  // after a checkpoint: how the tools have moved since then is unknown
 }
 
 void GrassField::connect() {

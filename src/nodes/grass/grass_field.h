@@ -99,6 +99,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
   std::uint64_t state_bytes_{0}, largest_state_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
+  std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, forces_publisher_,
       cover_publisher_, values_publisher_;

@@ -1,5 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "nodes/grass/grass_field.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -60,9 +62,11 @@ void GrassField::followSources(Nanoseconds stamp) {
 }
 
 void GrassField::followCutters(Nanoseconds stamp) {
-  const double longest = options_.scene.grass.treading.longest_stroke;
-  for (const grass::CutArea& area :
-       cutters_.update(stamp, field_->terrain(), tuning_.height_gate, longest))
+  std::vector<grass::CutArea> areas =
+      cutters_.update(stamp, field_->terrain(), tuning_.height_gate, options_.scene.grass.treading);
+  // The last one that is added is applied first.
+  std::reverse(areas.begin(), areas.end());
+  for (const grass::CutArea& area : areas)
     acceptInput("cutter", [&] {
       Faults faults;
       check(area, "cutter: ", faults);
@@ -70,7 +74,7 @@ void GrassField::followCutters(Nanoseconds stamp) {
       GrassEvent event;
       event.kind = GrassEvent::CUT;
       event.cut = toMsg(area);
-      inputs_.add(std::move(event));
+      inputs_.addFirst(event);
     });
 }
 

@@ -94,10 +94,13 @@ void GrassField::addDiagnostics(Status& status) {
   warnOfMore(status, tread.counts.no_memory, reported_no_memory_,
              "nodes left untrodden by the memory cap");
   reported_no_memory_ = tread.counts.no_memory;
+  const std::uint64_t uncut = tread_->cuts().state().no_memory;
+  warnOfMore(status, uncut, reported_uncut_, "nodes left uncut by the memory cap");
+  reported_uncut_ = uncut;
   status.add("Sources", field_->sources().size());
   status.add("Sources without a position", sources_.missing().size());
   status.add("Cutters without a position", cutters_.missing().size());
-  status.add("Transforms too late for their tick", sources_.late());
+  status.add("Transforms too late for their tick", sources_.late() + cutters_.late());
   status.add("Strokes", tread.counts.strokes);
   status.add("Strokes off the map", tread.counts.outside);
   status.add("Jumps of sources", tread.counts.jumps);
@@ -107,7 +110,7 @@ void GrassField::addDiagnostics(Status& status) {
              static_cast<std::uint64_t>(options_.scene.grass.treading.memory_cap));
   status.add("Nodes left out by the cap", tread.counts.no_memory);
   status.add("Cut ground [B]", tread_->cuts().bytes());
-  status.add("Nodes left uncut by the cap", tread_->cuts().state().no_memory);
+  status.add("Nodes left uncut by the cap", uncut);
   status.add("State sent [B]", state_bytes_);
   status.add("Largest state [B]", largest_state_);
   status.add("Viewers", viewers_.size());

@@ -117,7 +117,7 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
   const grass::Features f = map.at(x, y);
   const grass::CutNode cut = field_->tread().cuts().at({x, y});
   out.height = field_->heightAt({x, y});
-  out.cut = double{cut.height} < f.height;
+  out.cut = cut.height < grass::UNCUT;
   out.swath = cut.swath;
   out.density = f.density;
   out.colour = f.colour;
@@ -174,6 +174,9 @@ bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response)
         const Vec3 p = transformed(to_world, Vec3(point.x, point.y, 0.0));
         point = {p.x(), p.y()};
       }
+    Faults faults;
+    check(area, "in the world frame: ", faults);
+    faults.throwIfAny();
     field_->checkCut(area);
     GrassEvent event;
     event.kind = GrassEvent::CUT;
@@ -191,7 +194,9 @@ bool GrassField::onCutting(std_srvs::SetBool::Request& request,
   response.message = options_.replay ? "a replay follows its recorded events only"
                      : request.data  ? "cutters are on"
                                      : "cutters are off";
-  if (!options_.replay) cutters_.setEnabled(request.data != 0);
+  if (options_.replay) return true;
+  cutters_.setEnabled(request.data != 0);
+  checkpointNow();  // no event shows it
   return true;
 }
 

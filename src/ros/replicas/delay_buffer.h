@@ -43,6 +43,11 @@ class DelayBuffer {
                                   [now](const auto& one) { return one.first > now; }),
                    waiting_.end());
   }
+  /// Returns whether a message up to `stamp` waits.
+  bool has(Nanoseconds stamp) const {
+    return std::any_of(waiting_.begin(), waiting_.end(),
+                       [stamp](const auto& one) { return one.first <= stamp; });
+  }
   std::size_t size() const { return waiting_.size(); }
   std::uint64_t lost() const { return lost_; }
 

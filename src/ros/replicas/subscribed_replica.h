@@ -47,6 +47,8 @@ class SubscribedReplica {
   }
   /// Number of delayed states, and of those that were dropped because too many waited.
   std::size_t waiting() const { return delayed_.size(); }
+  /// Whether a delayed state with a stamp up to `last` waits.
+  bool hasWaiting(Nanoseconds last) const { return delayed_.has(last); }
   std::uint64_t lost() const { return delayed_.lost(); }
   /// Frame of the newest layout, or of the newest state of an input without one.
   const std::string& frame() const { return frame_; }

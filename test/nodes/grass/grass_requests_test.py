@@ -110,6 +110,8 @@ class GrassRequests(unittest.TestCase):
         before = self.grass.at(-17.0, 3.0)
         self.call(self.grass.cut, **self.cut_of(0.06, (-18.0, 2.0), (-16.0, 2.0), (-16.0, 4.0),
                                                 (-18.0, 4.0)))
+        self.call(self.grass.cut, **self.cut_of(0.06, (19.0, 19.0), (20.1, 19.0), (20.1, 20.1),
+                                                (19.0, 20.1)))
         cut, beside = self.grass.samples([(-17.0, 3.0), (-15.9, 3.0)])
         self.assertEqual((before.cut, cut.cut, beside.cut), (False, True, False))
         self.assertAlmostEqual(cut.height, 0.06, places=7)
@@ -125,8 +127,10 @@ class GrassRequests(unittest.TestCase):
         def index(x, y):
             return (int((y - info.origin.position.y) / info.resolution) * info.width +
                     int((x - info.origin.position.x) / info.resolution))
-        self.assertAlmostEqual(cover.cut[index(-17.1, 3.1)], 1.0, places=5)
-        self.assertAlmostEqual(cover.height[index(-17.1, 3.1)], 0.06, places=5)
+        # A cell on the border of the map has more nodes.
+        for x, y in ((-17.1, 3.1), (19.9, 19.9), (19.9, 19.4)):
+            self.assertAlmostEqual(cover.cut[index(x, y)], 1.0, places=5)
+            self.assertAlmostEqual(cover.height[index(x, y)], 0.06, places=5)
         self.assertAlmostEqual(cover.swath[index(-17.1, 3.1)], cut.swath, delta=0.3 * cut.swath)
         self.assertEqual(cover.cut[index(-15.5, 3.1)], 0.0)
 

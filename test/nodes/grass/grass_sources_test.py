@@ -92,6 +92,14 @@ class GrassSources(unittest.TestCase):
         self.fly(20, lambda s: ('blade', -9.0 + 6.0 * s, -17.0, 0.1))
         self.assertTrue(self.grass.at(-6.0, -17.0).cut)
 
+    # 3 m a tick are more than top_speed, and less than longest_stroke.
+    def test_a_cutter_that_jumps_cuts_only_where_it_lands(self):
+        self.fly(4, lambda s: ('blade', -15.0 + 12.0 * s, -19.0, 0.1))
+        landed = self.grass.samples([(-15.0 + 3.0 * i, -19.0) for i in range(5)])
+        self.assertEqual({s.cut for s in landed}, {True})
+        self.assertFalse(any(s.cut for s in self.grass.samples(
+            [(-13.5 + 3.0 * i, -19.0) for i in range(4)])))
+
     def test_an_offset_and_a_gate_of_its_own(self):
         self.fly(RATE, lambda s: ('mower', 2.0, 8.0 + s, 0.25, math.pi / 2))
         # The offset is 0.5 m ahead and 0.05 m up.
