@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """People push the plants of canopy_animator as they were at the tick before, for which a tick
 waits."""
+import threading
 import time
 import unittest
 
@@ -62,7 +63,7 @@ class CanopyPeople(unittest.TestCase):
         late = self.late()
         self.clock.run(1, self.leaves)
         self.clock.show(self.clock.tick + 1)
-        time.sleep(0.3)
+        threading.Event().wait(0.3)
         self.assertFalse(self.has_ticked())
         self.send(self.clock.tick - 1)
         self.leaves.state.wait_for_stamp(time_of(self.clock.tick))
