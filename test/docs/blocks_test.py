@@ -83,7 +83,8 @@ class Blocks(unittest.TestCase):
         self.assertIn('robot', declared(PACKAGE + '/launch/robot.launch'))
 
     def test_grass_field_reads_the_meadow_and_the_sources(self):
-        meadow, sources = map(yaml.safe_load, fenced('docs/grass.md', 'yaml'))
+        meadow, cutters, sources = map(yaml.safe_load, fenced('docs/grass.md', 'yaml'))
+        sources.update(cutters)
         with tempfile.TemporaryDirectory() as folder:
             Image.new('L', (51, 51), 128).save(folder + '/density.png')
 

@@ -16,7 +16,7 @@ from geometry_msgs.msg import (Point, PointStamped, Quaternion, Transform, Trans
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import srv
-from vegetation_sim.msg import AgentSpawn, ErrorCode, TreadLaw, WindPrimitive
+from vegetation_sim.msg import AgentSpawn, ErrorCode, GrassCut, TreadLaw, WindPrimitive
 
 from forest_rig import RATE, TickClock
 from given import given
@@ -82,6 +82,9 @@ REQUESTS = {
     '/forest_animator/set_tf': [(srv.SetTfRequest(tree=1, branches=[1], enable=False),)],
     '/grass_field/clear': [
         (srv.ClearGrassRequest(centre=PLACE, radius=1.0), 'centre.header', 'centre.point.z')],
+    '/grass_field/cut': [
+        (srv.CutGrassRequest(cut=GrassCut(outline=[PLACE.point], radius=0.2, height=0.1)),
+         'header.seq', 'cut.outline.0.z')],
     '/grass_field/sample': [
         (srv.SampleGrassRequest(points=[PLACE.point]), 'header', 'points.0.z')],
     '/grass_field/tread': [(srv.TreadRequest(points=[PLACE.point], law=LAW),
