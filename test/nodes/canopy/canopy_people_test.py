@@ -55,8 +55,9 @@ class CanopyPeople(unittest.TestCase):
             self.send(self.clock.tick)
             self.send(self.clock.tick + 1, x=0.01)  # comes early and is not taken yet
             self.clock.run(1, self.leaves)
-        self.assertEqual(self.bodies(), [(time_of(tick + 1), time_of(tick))
-                                         for tick in range(first, first + 5)])
+        expected = [(time_of(tick + 1), time_of(tick)) for tick in range(first, first + 5)]
+        self.leaves.events.wait(lambda _: len(self.bodies()) >= 5, 'the events of 5 ticks')
+        self.assertEqual(self.bodies(), expected)
         self.send(self.clock.tick)
 
     def expect_a_tick_to_wait(self):
@@ -67,8 +68,8 @@ class CanopyPeople(unittest.TestCase):
         self.assertFalse(self.has_ticked())
         self.send(self.clock.tick - 1)
         self.leaves.state.wait_for_stamp(time_of(self.clock.tick))
-        self.assertEqual(self.bodies()[-1],
-                         (time_of(self.clock.tick), time_of(self.clock.tick - 1)))
+        expected = time_of(self.clock.tick), time_of(self.clock.tick - 1)
+        self.leaves.events.wait(lambda _: expected in self.bodies(), 'people of the tick before')
         self.assertEqual(self.late(), late)
 
     def expect_a_wait_to_end(self):
