@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grass/tread/area_rows.h"
+#include "grass/tread/tile_nodes.h"
 #include "grass/tread/tread_lanes.h"
 #include "vegetation_sim/core/math/hash.h"
 
@@ -194,30 +195,19 @@ CutNode CutMap::at(const Point& place) const {
 void CutMap::patch(int tile_column, int tile_row, CrushPatch& out) const {
   out.cut.clear();
   out.swath.clear();
-  const int column0 = tile_column * cells_, row0 = tile_row * cells_;
   const auto side = static_cast<std::size_t>(cells_ + 1);
-  for (int block_row = row0 / SIDE; block_row <= (row0 + cells_) / SIDE; ++block_row) {
-    auto entry = state_.blocks.lower_bound({block_row, column0 / SIDE});
-    for (; entry != state_.blocks.end() && entry->first.first == block_row &&
-           entry->first.second <= (column0 + cells_) / SIDE;
-         ++entry) {
-      if (out.cut.empty()) {
+  visitTileNodes(
+      state_.blocks, tile_column, tile_row, cells_,
+      [&](const CutBlock&) {
+        if (!out.cut.empty()) return true;
         out.cut.assign(side * side, UNCUT);
         out.swath.assign(side * side, 0.f);
-      }
-      const int first_row = block_row * SIDE, first_column = entry->first.second * SIDE;
-      for (int row = std::max(row0, first_row);
-           row <= std::min(row0 + cells_, first_row + SIDE - 1); ++row)
-        for (int column = std::max(column0, first_column);
-             column <= std::min(column0 + cells_, first_column + SIDE - 1); ++column) {
-          const CutNode& node = entry->second.nodes[indexOf(row, column)];
-          const std::size_t to = static_cast<std::size_t>(row - row0) * side +
-                                 static_cast<std::size_t>(column - column0);
-          out.cut[to] = node.height;
-          out.swath[to] = static_cast<float>(node.swath);
-        }
-    }
-  }
+        return true;
+      },
+      [&](const CutNode& node, std::size_t to) {
+        out.cut[to] = node.height;
+        out.swath[to] = static_cast<float>(node.swath);
+      });
   if (out.cut.empty() || out.cells > 0) return;
   out.cells = cells_;
   for (std::vector<float>* layer : {&out.tilt, &out.tx, &out.ty}) layer->assign(side * side, 0.f);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "grass/tread/tile_nodes.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/grass/tread/tread_map.h"
 
@@ -35,34 +36,22 @@ TreadNode TreadMap::at(const Point& place, Nanoseconds stamp) const {
 
 void TreadMap::patch(int tile_column, int tile_row, Nanoseconds stamp, CrushPatch& out) const {
   out.cells = 0;
-  const int column0 = tile_column * cells_, row0 = tile_row * cells_;
   const auto side = static_cast<std::size_t>(cells_ + 1);
-  for (int block_row = row0 / SIDE; block_row <= (row0 + cells_) / SIDE; ++block_row) {
-    auto entry = state_.blocks.lower_bound({block_row, column0 / SIDE});
-    for (; entry != state_.blocks.end() && entry->first.first == block_row &&
-           entry->first.second <= (column0 + cells_) / SIDE;
-         ++entry) {
-      if (entry->second.until <= stamp) continue;
-      if (out.cells == 0) {
+  visitTileNodes(
+      state_.blocks, tile_column, tile_row, cells_,
+      [&](const TreadBlock& block) {
+        if (block.until <= stamp) return false;
+        if (out.cells > 0) return true;
         out.cells = cells_;
         for (std::vector<float>* layer : {&out.tilt, &out.tx, &out.ty})
           layer->assign(side * side, 0.f);
-      }
-      const int first_row = block_row * SIDE, first_column = entry->first.second * SIDE;
-      for (int row = std::max(row0, first_row);
-           row <= std::min(row0 + cells_, first_row + SIDE - 1); ++row)
-        for (int column = std::max(column0, first_column);
-             column <= std::min(column0 + cells_, first_column + SIDE - 1); ++column) {
-          const TreadNode& node = entry->second.nodes[static_cast<std::size_t>(
-              (row - first_row) * SIDE + column - first_column)];
-          const std::size_t to = static_cast<std::size_t>(row - row0) * side +
-                                 static_cast<std::size_t>(column - column0);
-          out.tilt[to] = tiltAt(node, stamp);
-          out.tx[to] = out.tilt[to] * node.x;
-          out.ty[to] = out.tilt[to] * node.y;
-        }
-    }
-  }
+        return true;
+      },
+      [&](const TreadNode& node, std::size_t to) {
+        out.tilt[to] = tiltAt(node, stamp);
+        out.tx[to] = out.tilt[to] * node.x;
+        out.ty[to] = out.tilt[to] * node.y;
+      });
   cuts_.patch(tile_column, tile_row, out);
 }
 

@@ -29,6 +29,17 @@ TreadLaw readLaw(YamlSection& section) {
   return out;
 }
 
+// Reads where a source or a cutter is in its frame.
+template <class Followed>
+void readPlace(YamlSection& section, Followed& out) {
+  if (!out.frame.empty() && out.frame[0] == '/')
+    section.fault("frame", "= '" + out.frame + "' begins with '/'");
+  section.vector("offset", out.offset, "m", {-100.0, 100.0});
+  double height_gate = 0.0;
+  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
+  if (section.has("height_gate")) out.height_gate = height_gate;
+}
+
 FollowedSource readSource(YamlSection& section) {
   FollowedSource out;
   section.text("frame", out.frame);
@@ -36,12 +47,7 @@ FollowedSource readSource(YamlSection& section) {
   out.name = out.frame.empty() ? out.odometry : out.frame;
   section.text("name", out.name);
   if (out.frame.empty() == out.odometry.empty()) section.fault("needs either frame or odometry");
-  if (!out.frame.empty() && out.frame[0] == '/')
-    section.fault("frame", "= '" + out.frame + "' begins with '/'");
-  section.vector("offset", out.offset, "m", {-100.0, 100.0});
-  double height_gate = 0.0;
-  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
-  if (section.has("height_gate")) out.height_gate = height_gate;
+  readPlace(section, out);
   out.law = readLaw(section);
   section.finish();
   return out;
@@ -53,12 +59,7 @@ FollowedCutter readCutter(YamlSection& section) {
   out.name = out.frame;
   section.text("name", out.name);
   if (out.frame.empty()) section.fault("frame", "is missing");
-  if (!out.frame.empty() && out.frame[0] == '/')
-    section.fault("frame", "= '" + out.frame + "' begins with '/'");
-  section.vector("offset", out.offset, "m", {-100.0, 100.0});
-  double height_gate = 0.0;
-  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
-  if (section.has("height_gate")) out.height_gate = height_gate;
+  readPlace(section, out);
   describe(section, out.cutter);
   section.finish();
   return out;
