@@ -16,7 +16,8 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
     : id_(id),
       tree_(forest.grow(id)),
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
-      poser_(tree_) {
+      poser_(tree_),
+      origin_(tree_.foot) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
   rods_.resize(branches.size());
   for (std::size_t i = 0; i < branches.size(); ++i) {
@@ -27,7 +28,7 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
   addLeaves(forest.layout().species.at(tree_.seed.species));
   poser_.pose(wind::Instant(), forest::Weights{}, tree_.skeleton.depths(), poses_);
   placeRods();
-  rod_tree_.build(rods_, leaf_radii_, tree_.foot);
+  rod_tree_.build(rods_, leaf_radii_, origin_);
 }
 
 // The leaf clusters of a twig are spread evenly over their reach.
@@ -67,22 +68,16 @@ void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
     poser_.pose(wind.relativeTo(tree_.foot), forest.weights(id_, stamp), tree_.skeleton.depths(),
                 poses_);
   placeRods();
-  rod_tree_.fit(rods_, leaf_radii_, tree_.foot);
 }
 
 void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
-                       const wind::Instant& wind) {
+                       const wind::Instant& wind, const Vec3& origin) {
   const bool moves = forest::movingDepths(forest.weights(id_, stamp)) > 0 ||
                      forest.modalState(id_) != nullptr || !forest.promoted(id_).branches.empty();
   if (moves || moved_) pose(forest, stamp, wind);
+  if (moves || moved_ || origin_ != origin) rod_tree_.fit(rods_, leaf_radii_, origin);
   moved_ = moves;
-}
-
-void PosedTree::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
-                     RankedHit& nearest) const {
-  rod_tree_.visit(ray, narrow, nearest.hit(), [&](std::size_t branch) {
-    nearest.offer(first_rank + branch, [&](Hit& hit) { return meetBranch(branch, ray, hit); });
-  });
+  origin_ = origin;
 }
 
 bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
@@ -110,11 +105,6 @@ bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) con
   if (!(part.from + way < to)) return false;
   nearest = {part.from + way, Label::LEAF, id_, static_cast<int>(branch), LEAF_COSINE};
   return true;
-}
-
-void PosedTree::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
-  rod_tree_.visit(ray, narrow, path.end(),
-                  [&](std::size_t branch) { addBranchDepth(branch, ray, path); });
 }
 
 void PosedTree::addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const {

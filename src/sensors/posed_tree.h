@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sensors/geometry/light_path.h"
-#include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/rod_tree.h"
 #include "tree/mesh/paint.h"
 #include "vegetation_sim/forest/forest_replica.h"
@@ -26,10 +25,10 @@ class PosedTree {
   /// Grows the tree.
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id);
 
-  /// Moves all branches to `stamp`. @param wind of that stamp.
-  void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
-  /// Does the same if the tree moves or moved last time.
-  void follow(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
+  /// Moves the branches to `stamp` if they move or moved last time. @param wind of that stamp.
+  /// @param origin place near the sensor to which rodTree() is fitted [m].
+  void follow(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind,
+              const Vec3& origin);
 
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
@@ -38,6 +37,8 @@ class PosedTree {
   /// Number of branches.
   std::size_t parts() const { return rods_.size(); }
   Box bounds() const { return rod_tree_.bounds(); }
+  /// Returns the branches with the room for their leaves.
+  const RodTree& rodTree() const { return rod_tree_; }
   const std::vector<Rod>& rods() const { return rods_; }
 
   const std::vector<Quat>& turns() const { return turns_; }
@@ -46,20 +47,16 @@ class PosedTree {
   /// Returns the room that the leaves of each branch take around its axis [m]; 0 without leaves.
   const std::vector<double>& leafRadii() const { return leaf_radii_; }
 
-  /// Replaces the hit by a nearer one on this tree. Branches have the ranks from `first_rank` on.
-  void meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first_rank,
-            RankedHit& nearest) const;
-  /// Does the same without ranks for one branch and its leaves; returns whether there is a nearer
-  /// hit.
+  /// Replaces the hit by a nearer one on a branch or its leaves; returns whether there is one.
   bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
-  /// Adds the optical depth of the leaves up to the end of the path, or blocks it if there is wood.
-  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const;
-  /// Does the same for one branch and its leaves.
+  /// Adds the optical depth of the leaves of a branch up to the end of the path, or blocks it if
+  /// the branch does.
   void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
 
  private:
   void addLeaves(const forest::Species& species);
+  void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
   void placeRods();
   bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
@@ -73,6 +70,7 @@ class PosedTree {
   std::vector<Leaves> leaves_;  ///< of each branch
   std::vector<double> leaf_radii_;
   RodTree rod_tree_;
+  Vec3 origin_;  ///< of rod_tree_
   bool moved_{true};
 };
 

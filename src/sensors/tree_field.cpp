@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "sensors/geometry/posed_set.h"
+#include "sensors/geometry/ranked_hit.h"
+
 namespace vegetation_sim::scan {
 namespace {
 
@@ -24,6 +27,12 @@ std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, con
   return out;
 }
 
+// Trees that stand still are fitted anew only where a moving sensor enters another cell of a grid.
+Vec3 originNear(const Vec3& place) {
+  constexpr double CELL = 8.0;  // [m]
+  return CELL * (place / CELL).array().round().matrix();
+}
+
 }  // namespace
 
 void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
@@ -34,17 +43,16 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
 
 void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
                    Nanoseconds stamp, ThreadPool& threads) {
-  auto known = trees_.take();
+  auto known = takeById(trees_);
   if (layout_hash_ != forest.layoutHash()) {
     known.clear();
     sizes_.clear();
   }
   layout_hash_ = forest.layoutHash();
-  std::vector<std::shared_ptr<PosedTree>> trees;
   branches_ = 0;
   const std::vector<std::uint32_t> near = nearestFirst(forest, centre, radius);
   const auto fits = [&](std::size_t more) {
-    return trees.empty() || branches_ + more <= most_branches_;
+    return trees_.empty() || branches_ + more <= most_branches_;
   };
   for (const std::uint32_t id : near) {
     std::shared_ptr<PosedTree>& tree = known[id];
@@ -58,15 +66,39 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
       break;
     }
     branches_ += tree->parts();
-    trees.push_back(std::move(tree));
+    trees_.push_back(std::move(tree));
   }
-  left_out_ = near.size() - trees.size();
+  left_out_ = near.size() - trees_.size();
   const wind::Instant wind = forest.wind().at(stamp);
+  const Vec3 origin = originNear(centre);
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
-    for (std::size_t i = first; i < trees.size(); i += parts) trees[i]->follow(forest, stamp, wind);
+    for (std::size_t i = first; i < trees_.size(); i += parts)
+      trees_[i]->follow(forest, stamp, wind, origin);
   });
-  trees_.set(std::move(trees), centre);
+  std::vector<const RodTree*> rods;
+  first_ranks_.clear();
+  std::uint64_t rank = 1;
+  for (const auto& tree : trees_) {
+    rods.push_back(&tree->rodTree());
+    first_ranks_.push_back(rank);
+    rank += tree->parts();
+  }
+  rods_.set(rods, origin, threads);
+}
+
+void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
+  RankedHit ranked(nearest);
+  rods_.visit(ray, narrow, nearest, [&](std::size_t tree, std::size_t branch) {
+    ranked.offer(first_ranks_[tree] + branch,
+                 [&](Hit& hit) { return trees_[tree]->meetBranch(branch, ray, hit); });
+  });
+}
+
+void Trees::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
+  rods_.visit(ray, narrow, path.end(), [&](std::size_t tree, std::size_t branch) {
+    trees_[tree]->addBranchDepth(branch, ray, path);
+  });
 }
 
 }  // namespace vegetation_sim::scan

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/geometry/posed_set.h"
+#include "sensors/geometry/light_path.h"
+#include "sensors/geometry/rod_tree_set.h"
 #include "sensors/posed_tree.h"
 
 namespace vegetation_sim::scan {
@@ -30,17 +31,13 @@ class Trees {
 
   /// Replaces `nearest` by a nearer hit on wood or leaves. Of hits at equal distances that on the
   /// tree that comes first in all(), there on the branch of the lowest index, counts.
-  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
-    trees_.meet(ray, narrow, nearest);
-  }
+  void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
   void meet(const Ray& ray, Hit& nearest) const { meet(ray, FloatRay(ray), nearest); }
 
   /// Adds the optical depth of leaves to a path of light, or blocks it if there is wood.
-  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
-    trees_.addDepth(ray, narrow, path);
-  }
+  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const;
 
-  const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_.all(); }
+  const std::vector<std::shared_ptr<PosedTree>>& all() const { return trees_; }
   std::size_t branches() const { return branches_; }
   /// Returns the number of trees that exceeded the limit in the last update().
   std::size_t leftOut() const { return left_out_; }
@@ -50,8 +47,10 @@ class Trees {
  private:
   std::size_t most_branches_;
   std::uint64_t layout_hash_{0};
-  PosedSet<PosedTree> trees_;                   ///< nearest first
-  std::map<std::uint32_t, std::size_t> sizes_;  ///< branches of trees that exceeded the limit
+  std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first
+  std::vector<std::uint64_t> first_ranks_;         ///< of the branches of each tree
+  RodTreeSet rods_;                                ///< of trees_
+  std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that exceeded the limit
   std::size_t branches_{0}, left_out_{0};
   std::uint64_t grown_{0};
 };

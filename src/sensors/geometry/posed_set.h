@@ -8,11 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/wide_walk.h"
 
 namespace vegetation_sim::scan {
+
+/// Takes all plants out of a list, by their ids.
+template <class Plant>
+std::map<std::uint32_t, std::shared_ptr<Plant>> takeById(
+    std::vector<std::shared_ptr<Plant>>& plants) {
+  std::map<std::uint32_t, std::shared_ptr<Plant>> out;
+  for (std::shared_ptr<Plant>& plant : plants) out[plant->id()] = std::move(plant);
+  plants.clear();
+  return out;
+}
 
 /// Posed plants around a sensor, in a wide tree.
 /// @tparam Plant has id(), parts(), bounds() and meet().
@@ -22,12 +31,7 @@ class PosedSet {
   using Pointer = std::shared_ptr<Plant>;
 
   /// Takes all plants out, by their ids.
-  std::map<std::uint32_t, Pointer> take() {
-    std::map<std::uint32_t, Pointer> out;
-    for (Pointer& plant : plants_) out[plant->id()] = std::move(plant);
-    plants_.clear();
-    return out;
-  }
+  std::map<std::uint32_t, Pointer> take() { return takeById(plants_); }
   /// Replaces all plants by posed ones. @param origin place near them [m].
   void set(std::vector<Pointer> plants, const Vec3& origin) {
     plants_ = std::move(plants);
@@ -57,12 +61,6 @@ class PosedSet {
       plants_[plant]->meet(ray, narrow, first_ranks_[plant], ranked);
     });
   }
-  /// Adds the optical depth of all plants. Requires Plant::addDepth().
-  void addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
-    visit(ray, narrow, path.end(),
-          [&](std::size_t plant) { plants_[plant]->addDepth(ray, narrow, path); });
-  }
-
   const std::vector<Pointer>& all() const { return plants_; }
 
  private:
@@ -71,7 +69,7 @@ class PosedSet {
   template <class Visit>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Visit&& visit) const {
     if (plants_.empty()) return;
-    WideWalk walk(boxes_, ray, narrow, nearest.distance);
+    WideWalk walk(WalkedTree(boxes_), ray, narrow, nearest.distance);
     for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
       visit(itemOf(group));
       walk.limit = limitOf(nearest.distance);

@@ -18,13 +18,15 @@ class RodTree {
   /// Moves the rods. Requires as many as built.
   /// @param origin place near the rods; those that are nearer have smaller errors of rounding.
   void fit(const std::vector<Rod>& rods, const std::vector<double>& radii, const Vec3& origin);
+  const WideTree& boxes() const { return tree_; }
+  const std::vector<RodGroup>& groups() const { return groups_; }
   /// Returns the box of all rods with their radii.
   const Box& bounds() const { return tree_.bounds(); }
 
   /// Calls meet(rod), which may reduce `nearest`, for each rod that a ray may hit; near ones first.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
-    WideWalk walk(tree_, ray, narrow, nearest.distance, groups_.data());
+    WideWalk walk(WalkedTree(tree_, groups_.data()), ray, narrow, nearest.distance);
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
       for (int i = 0; next.lanes >> i != 0; ++i)
         if ((next.lanes >> i & 1U) != 0) meet(static_cast<std::size_t>(tree_.item(next.group, i)));

@@ -24,7 +24,7 @@ class StripTree {
   /// first.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
-    WideWalk walk(tree_, ray, narrow, nearest.distance);
+    WideWalk walk(WalkedTree(tree_), ray, narrow, nearest.distance);
     for (int group = nextGroup(walk); group >= 0; group = nextGroup(walk)) {
       for (int i = 0; i < tree_.size(group); ++i)
         meet(static_cast<std::size_t>(tree_.item(group, i)));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int BINS = 16;
 // Below this depth ranges are halved. The depth is then at most 32 + 31, and each level of nodes
-// leaves at most seven children waiting, fewer than MOST_WAITING.
+// leaves at most seven children waiting: in two trees fewer than MOST_WAITING.
 constexpr int DEEPEST = 32;
 
 Vec3 middleOf(const Box& box) {

@@ -60,8 +60,8 @@ class WideTree {
   /// Returns the box of all items.
   const Box& bounds() const { return bounds_; }
 
-  /// Largest number of children that wait while a ray is led through the tree.
-  static constexpr int MOST_WAITING = 512;
+  /// Largest number of children that wait while a ray is led through a tree of trees.
+  static constexpr int MOST_WAITING = 1024;
 
  private:
   struct Range {

@@ -208,18 +208,27 @@ float limitOf(double distance) {
   return static_cast<float>(distance * (1.0 + 0x1p-20) + 1e-6);
 }
 
-WideWalk::WideWalk(const WideTree& tree, const Ray& wide, const FloatRay& narrow, double distance,
-                   const RodGroup* rods)
-    : nodes(tree.nodes().data()), groups(rods), ray(&narrow), limit(limitOf(distance)) {
-  const Vec3 from = wide.origin - tree.origin();
-  margin = static_cast<float>(narrow.slack * (from.cwiseAbs().sum() + tree.extent()));
+WalkedTree::WalkedTree(const WideTree& tree, const RodGroup* rods)
+    : nodes(tree.nodes().empty() ? nullptr : tree.nodes().data()),
+      groups(rods),
+      origin(tree.origin()),
+      extent(tree.extent()) {}
+
+WalkedTree::WalkedTree(const std::vector<WideNode>& all, const std::vector<RodGroup>& rods,
+                       const Vec3& place, double size)
+    : nodes(all.empty() ? nullptr : all.data()), groups(rods.data()), origin(place), extent(size) {}
+
+WideWalk::WideWalk(const WalkedTree& tree, const Ray& wide, const FloatRay& narrow, double distance)
+    : nodes(tree.nodes), groups(tree.groups), ray(&narrow), limit(limitOf(distance)) {
+  const Vec3 from = wide.origin - tree.origin;
+  margin = static_cast<float>(narrow.slack * (from.cwiseAbs().sum() + tree.extent));
   for (int i = 0; i < 3; ++i) {
     origin[i] = static_cast<float>(from[i]);
     const float towards = narrow.inverse[i] < 0.f ? -margin : margin;
     near_origin[i] = origin[i] + towards;
     far_origin[i] = origin[i] - towards;
   }
-  if (narrow.valid && !tree.nodes().empty()) waiting[count++] = {0.f, 0};
+  if (narrow.valid && nodes) waiting[count++] = {0.f, 0};
 }
 
 int nextGroup(WideWalk& walk) {

@@ -34,10 +34,21 @@ struct alignas(64) RodGroup {
   std::int32_t count{0};
 };
 
+/// Nodes of a tree whose first one is its root, and the groups that they lead to.
+struct WalkedTree {
+  explicit WalkedTree(const WideTree& tree, const RodGroup* rods = nullptr);
+  WalkedTree(const std::vector<WideNode>& all, const std::vector<RodGroup>& rods, const Vec3& place,
+             double size);
+
+  const WideNode* nodes;   ///< null: the tree is empty
+  const RodGroup* groups;  ///< null: the tree is of boxes alone
+  Vec3 origin;
+  double extent;  ///< as that of a WideTree
+};
+
 /// A ray on its way through a tree; the nearest box is visited first.
 struct WideWalk {
-  WideWalk(const WideTree& tree, const Ray& ray, const FloatRay& narrow, double distance,
-           const RodGroup* groups = nullptr);
+  WideWalk(const WalkedTree& tree, const Ray& ray, const FloatRay& narrow, double distance);
 
   struct Waiting {
     float entry;

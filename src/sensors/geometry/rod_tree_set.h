@@ -1,0 +1,53 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/threads/thread_pool.h"
+#include "sensors/geometry/rod_tree.h"
+
+namespace vegetation_sim::scan {
+
+/// The rods of several plants in one wide tree, so that a ray is led through all of them at once,
+/// nearest boxes first. Its first nodes hold the plants' boxes; the nodes of each plant follow.
+class RodTreeSet {
+ public:
+  /// Copies the nodes and rods of all trees, which must be fitted to `origin`.
+  void set(const std::vector<const RodTree*>& trees, const Vec3& origin, ThreadPool& threads);
+
+  /// Calls meet(tree, rod), which may reduce `nearest`, for each rod that a ray may hit; near ones
+  /// first.
+  template <class Meet>
+  void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
+    WideWalk walk(WalkedTree(nodes_, groups_, boxes_.origin(), boxes_.extent()), ray, narrow,
+                  nearest.distance);
+    for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
+      const Members& members = members_[static_cast<std::size_t>(next.group)];
+      for (int i = 0; next.lanes >> i != 0; ++i)
+        if ((next.lanes >> i & 1U) != 0)
+          meet(std::size_t{members.tree}, std::size_t{members.rods[i]});
+      walk.limit = limitOf(nearest.distance);
+    }
+  }
+
+ private:
+  /// Where the nodes and groups of a tree begin.
+  struct Place {
+    std::int32_t node{0}, group{0};
+  };
+  struct Members {
+    std::uint32_t tree{0};
+    std::uint32_t rods[WideNode::WIDTH]{};
+  };
+  void buildTop(const std::vector<const RodTree*>& trees, const Vec3& origin);
+  void copyTree(const RodTree& tree, std::uint32_t index, const Place& place);
+
+  WideTree boxes_{1};             ///< of the trees
+  std::vector<WideNode> nodes_;   ///< of boxes_, then of each tree
+  std::vector<RodGroup> groups_;  ///< of each tree
+  std::vector<Members> members_;  ///< of each group
+};
+
+}  // namespace vegetation_sim::scan
