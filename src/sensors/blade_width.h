@@ -15,4 +15,13 @@ inline double widthAt(double way, double least, double most) {
   return ((most - from) - way * way * (1.0 / from - 1.0 / most)) / (most - least);
 }
 
+/// Returns the same mean after all blades that are longer than `cut` were cut to this length. Their
+/// tips are drawn anew, so that a cut blade looks like one that has grown so long.
+inline double widthAfterCut(double way, double least, double most, double cut) {
+  if (cut >= most) return widthAt(way, least, most);
+  if (cut <= least) return widthAt(way, cut, cut);
+  const double shorter = (cut - least) / (most - least);
+  return shorter * widthAt(way, least, cut) + (1.0 - shorter) * widthAt(way, cut, cut);
+}
+
 }  // namespace vegetation_sim::scan

@@ -145,8 +145,7 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
     const double hinge = tilt + left > 0.0 ? both * tilt / (tilt + left) : 0.0;
     const double rise = sinCos(hinge + 0.5 * (both - hinge)).cos;
     const double most = here.height * kind.height, least = most * (1.0 - kind.spread);
-    const double width =
-        kind.width * widthAt(height / rise, std::min(least, cut), std::min(most, cut));
+    const double width = kind.width * widthAfterCut(height / rise, least, most, cut);
     // Mean squared cosine between the ray and blades of random direction.
     const double steep = direction.z() * direction.z();
     const double along = rise * rise * steep + 0.5 * (1.0 - rise * rise) * (1.0 - steep);
