@@ -98,8 +98,10 @@ class ClockedForest {
     GetTree call;
     call.request.tree = tree;
     call.request.stamp = stamp;
-    if (!tree_.call(call)) throw std::runtime_error("get_tree did not answer");
-    return call.response;
+    // Each call has a connection of its own, and roscpp gives up one that does not come about.
+    for (int attempt = 0; attempt < 3; ++attempt)
+      if (tree_.call(call)) return call.response;
+    throw std::runtime_error("get_tree did not answer");
   }
 
   const TickGrid& grid() const { return grid_; }
