@@ -40,9 +40,13 @@ check() {
 run_tests() {
   say 'Unit tests and node tests'
   rm -rf "$BUILD/test_results"
-  # Tests run one at a time, because tests of nodes need the machine for themselves. Failures are in
-  # the results.
-  cmake --build "$BUILD" --parallel 1 --target run_tests >"$BUILD/tests.log" 2>&1 || true
+  # Tests of libraries run side by side, those of nodes one at a time, because they need the machine
+  # for themselves. Failures are in the results.
+  local tests=run_tests_vegetation_sim
+  {
+    cmake --build "$BUILD" --parallel "$(nproc)" --target ${tests}_gtest ${tests}_roslaunch-check || true
+    cmake --build "$BUILD" --parallel 1 --target ${tests}_rostest || true
+  } >"$BUILD/tests.log" 2>&1
   local counts
   counts=$(python3 "$ROOT/scripts/count_tests.py" "$BUILD/test_results")
   read -r ok bad left <<<"$(tail -n 1 <<<"$counts")"
