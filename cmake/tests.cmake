@@ -34,6 +34,12 @@ foreach(folder ${core_folders})
     target_link_libraries(${folder}_test ${PROJECT_NAME}_core)
   endif()
 endforeach()
+catkin_add_gtest(tools_test test/main.cpp test/tools/octomap_writer_test.cpp
+  src/tools/octomap_writer.cpp)
+if(TARGET tools_test)
+  set_test_options(tools_test core)
+  target_link_libraries(tools_test ${PROJECT_NAME}_core PkgConfig::octomap)
+endif()
 # The shared scenes against their recorded hashes.
 file(GLOB sources CONFIGURE_DEPENDS test/golden/*.cpp scenes/*.cpp)
 catkin_add_gtest(golden_test ${sources})

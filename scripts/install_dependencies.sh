@@ -22,7 +22,7 @@ for option in "$@"; do
 done
 
 COMMON=(
-  cmake g++ libassimp-dev libeigen3-dev libgmock-dev libpng-dev libyaml-cpp-dev ninja-build pkg-config
+  cmake g++ libassimp-dev libeigen3-dev libgmock-dev liboctomap-dev libpng-dev libyaml-cpp-dev ninja-build pkg-config
   make  # catkin_make
   procps
 )

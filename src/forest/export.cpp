@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "forest/export.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -20,6 +21,7 @@ Turn turnOnto(const Vec3& axis) {
   return {arcTangent(across, axis.z()), arcTangent(axis.y(), axis.x())};
 }
 
+constexpr char SOIL[] = "<material><diffuse>0.30 0.33 0.17 1</diffuse></material>";
 constexpr char BARK[] = "<material><diffuse>0.36 0.27 0.19 1</diffuse></material>";
 
 struct Element {
@@ -53,6 +55,14 @@ std::uint64_t writeTree(const Tree& tree, std::uint32_t id, double thinnest, std
   return written;
 }
 
+void writeTerrainLink(const std::string& model, std::ostream& out) {
+  const std::string mesh =
+      "<geometry><mesh><uri>model://" + model + "/terrain.obj</uri></mesh></geometry>";
+  out << "    <link name=\"terrain\">\n      <collision name=\"collision\">" << mesh
+      << "</collision>\n      <visual name=\"visual\">" << mesh << SOIL
+      << "</visual>\n    </link>\n";
+}
+
 // Names are free text: as RFC 4180 has it.
 std::string quoted(const std::string& text) {
   if (text.find_first_of("\",\r\n") == std::string::npos) return text;
@@ -83,8 +93,38 @@ std::uint64_t writeSdf(const Layout& layout, const terrain::HeightMap& terrain,
                          " branches at tree " + std::to_string(id) + " of " +
                          std::to_string(layout.treeCount()) + ": ask for thicker ones");
   }
+  if (!terrain.isFlat()) writeTerrainLink(rule.name, out);
   out << "  </model>\n</sdf>\n";
   return written;
+}
+
+double writeTerrain(const terrain::HeightMap& terrain, std::uint64_t most, std::ostream& out) {
+  const terrain::Bounds bounds = terrain.bounds();
+  const auto cells = [&](double from, double to) {
+    return static_cast<std::uint64_t>(std::llround((to - from) / terrain.resolution()));
+  };
+  const std::uint64_t columns = cells(bounds.min_x, bounds.max_x);
+  const std::uint64_t rows = cells(bounds.min_y, bounds.max_y);
+  std::uint64_t step = 1;
+  const auto count = [&](std::uint64_t along) { return (along + step - 1) / step + 1; };
+  while (count(columns) * count(rows) > most && step < std::max(columns, rows)) ++step;
+  const std::uint64_t across = count(columns), up = count(rows);
+  const auto place = [&](double from, std::uint64_t i, std::uint64_t last) {
+    return from + terrain.resolution() * static_cast<double>(std::min(i * step, last));
+  };
+  out.precision(9);
+  for (std::uint64_t row = 0; row < up; ++row)
+    for (std::uint64_t column = 0; column < across; ++column) {
+      const double x = place(bounds.min_x, column, columns), y = place(bounds.min_y, row, rows);
+      out << "v " << x << ' ' << y << ' ' << terrain.height(x, y) << '\n';
+    }
+  for (std::uint64_t row = 0; row + 1 < up; ++row)
+    for (std::uint64_t column = 0; column + 1 < across; ++column) {
+      const std::uint64_t first = row * across + column + 1;  // vertices are counted from 1
+      out << "f " << first << ' ' << first + 1 << ' ' << first + across + 1 << '\n'
+          << "f " << first << ' ' << first + across + 1 << ' ' << first + across << '\n';
+    }
+  return terrain.resolution() * static_cast<double>(step);
 }
 
 void writeTable(const Layout& layout, const terrain::HeightMap& terrain, std::ostream& out) {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "sensors/blade_width.h"
-#include "sensors/geometry/beer_lambert.h"
 #include "sensors/geometry/box.h"
-#include "sensors/geometry/cell_walk.h"
+#include "sensors/media/beer_lambert.h"
+#include "sensors/media/cell_walk.h"
 #include "terrain/ground_ray.h"
 #include "vegetation_sim/core/math/math.h"
 

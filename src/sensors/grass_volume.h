@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "grass/lod/node_wind.h"
-#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ray.h"
 #include "sensors/grass_bounds.h"
+#include "sensors/media/light_path.h"
 #include "vegetation_sim/grass/grass_layout.h"
 #include "vegetation_sim/wind/field.h"
 

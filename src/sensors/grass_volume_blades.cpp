@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/geometry/beer_lambert.h"
-#include "sensors/geometry/cell_walk.h"
 #include "sensors/grass_volume.h"
+#include "sensors/media/beer_lambert.h"
+#include "sensors/media/cell_walk.h"
 
 namespace vegetation_sim::scan {
 namespace {

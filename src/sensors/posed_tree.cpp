@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/geometry/beer_lambert.h"
+#include "sensors/media/beer_lambert.h"
 #include "tree/mesh/mesh.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/rod_tree.h"
+#include "sensors/media/light_path.h"
 #include "tree/mesh/paint.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"

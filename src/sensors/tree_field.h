@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/geometry/light_path.h"
 #include "sensors/geometry/rod_tree_set.h"
+#include "sensors/media/light_path.h"
 #include "sensors/posed_tree.h"
 
 namespace vegetation_sim::scan {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "scenes/forest/forest_fixture.h"
+#include "scenes/grass/grass_fixture.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -63,6 +64,34 @@ TEST(Export, CylindersLieOnTheirBranches) {
     const Vec3 middle(p[0], p[1], p[2]);
     EXPECT_LT(length(middle - half * axis - branch.rest.position), 1e-6) << i;
     EXPECT_LT(length(middle + half * axis - tipOf(branch, branch.rest)), 1e-6) << i;
+  }
+}
+
+// N14: the mesh has the samples of the ground, or fewer of them.
+TEST(Export, GroundIsAMeshThroughItsSamples) {
+  const terrain::HeightMap ground = grass::slopedGround(0.3, -0.1);
+  std::ostringstream sdf;
+  writeSdf(gridLayout(1, 7.0), ground, {}, sdf);
+  EXPECT_NE(sdf.str().find("<uri>model://forest/terrain.obj</uri>"), std::string::npos);
+  EXPECT_EQ(sdfOf(gridLayout(1, 7.0), {}).find("terrain"), std::string::npos);
+  for (const std::uint64_t most : {2000u, 500u, 10u}) {
+    std::ostringstream out;
+    const double step = writeTerrain(ground, most, out);
+    const auto vertices = numbersOf(out.str(), "v ([^\n]*)\n");
+    const auto facets = numbersOf(out.str(), "f ([^\n]*)\n");
+    EXPECT_EQ(step, most == 2000 ? 1.0 : most == 500 ? 2.0 : 16.0);
+    const auto side = static_cast<std::size_t>(32.0 / step) + 1;
+    EXPECT_EQ(vertices.back(), (std::vector<double>{32.0, 32.0, vertices.back()[2]}));
+    ASSERT_EQ(vertices.size(), side * side);
+    ASSERT_EQ(facets.size(), 2 * (side - 1) * (side - 1));
+    for (const auto& v : vertices) EXPECT_NEAR(v[2], ground.height(v[0], v[1]), 1e-7);
+    for (const auto& f : facets) {
+      const auto corner = [&](int i) {
+        const auto& v = vertices.at(static_cast<std::size_t>(f[std::size_t(i)]) - 1);
+        return Vec3(v[0], v[1], 0.0);
+      };
+      EXPECT_NEAR((corner(1) - corner(0)).cross(corner(2) - corner(0)).z(), step * step, 1e-6);
+    }
   }
 }
 

@@ -20,7 +20,8 @@ PREFIX = 'ros-noetic-'
 # Keys of rosdep's base.yaml and python.yaml with their packages in Debian and Ubuntu.
 KEYS = {
     'assimp': ['libassimp-dev'], 'assimp-dev': ['libassimp-dev'], 'eigen': ['libeigen3-dev'],
-    'imagemagick': ['imagemagick'], 'libgmock-dev': ['libgmock-dev'], 'libpng-dev': ['libpng-dev'],
+    'imagemagick': ['imagemagick'], 'libgmock-dev': ['libgmock-dev'],
+    'liboctomap-dev': ['liboctomap-dev'], 'libpng-dev': ['libpng-dev'],
     'opengl': ['libgl1-mesa-dev', 'libglu1-mesa-dev'], 'pkg-config': ['pkg-config'],
     'procps': ['procps'], 'python3-matplotlib': ['python3-matplotlib'],
     'python3-numpy': ['python3-numpy'], 'python3-pil': ['python3-pil'],

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/forest_animator.h"
 
-#include "nodes/base/node_factory.h"
-
 #include <geometry_msgs/WrenchStamped.h>
 
 #include <algorithm>
 
+#include "nodes/base/node_factory.h"
+#include "nodes/markers/trunk_markers.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 
@@ -15,7 +15,8 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t MOST_SENSORS = 32;
-constexpr std::size_t MOST_WINDS = 256;  // that events can name
+constexpr std::size_t MOST_TRUNKS = 10000;  // of markers
+constexpr std::size_t MOST_WINDS = 256;     // that events can name
 
 forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning) {
   forest::Layout out = layout;
@@ -47,6 +48,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       frames_(options_.tf_budget),
       markers_(*forest_, cache_, options_.marker_points) {
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
+  trunks_publisher_ = handle_.advertise<visualization_msgs::MarkerArray>("forest/trunks", 1, true);
   state_publisher_ = handle_.advertise<ForestState>("forest/state", 1000);
   view_publisher_ = handle_.advertise<ForestState>("forest/view", 1000);
   branches_publisher_ = handle_.advertise<BranchTransforms>("forest/branches", 60);
@@ -233,6 +235,8 @@ void ForestAnimator::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
+  trunks_publisher_.publish(
+      trunkMarkersOf(forest_->layout(), forest_->terrain(), options_.frame_id, MOST_TRUNKS));
 }
 
 std::shared_ptr<void> createForestAnimator(const ros::NodeHandle& handle,

@@ -116,8 +116,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher layout_publisher_, state_publisher_, view_publisher_, branches_publisher_,
-      wrenches_publisher_, forces_publisher_, grabs_publisher_;
+  ros::Publisher layout_publisher_, trunks_publisher_, state_publisher_, view_publisher_,
+      branches_publisher_, wrenches_publisher_, forces_publisher_, grabs_publisher_;
 };
 
 }  // namespace vegetation_sim

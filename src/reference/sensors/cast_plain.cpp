@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sensors/geometry/beer_lambert.h"
+#include "sensors/media/beer_lambert.h"
 
 namespace vegetation_sim::scan {
 

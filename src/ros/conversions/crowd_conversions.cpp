@@ -10,6 +10,7 @@
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
+#include "vegetation_sim/tree/growth/skeleton.h"
 
 namespace vegetation_sim {
 namespace {
@@ -159,7 +160,8 @@ std::vector<crowd::Obstacle> trunksOf(const forest::Layout& layout, TrunkShape s
     if (out.size() >= most || at.x < area.min_x - margin || at.x > area.max_x + margin ||
         at.y < area.min_y - margin || at.y > area.max_y + margin)
       return;
-    const double radius = layout.species[tree.species].trunk_radius * tree.scale;
+    const forest::Species& species = layout.species[tree.species];
+    const double radius = species.trunk_radius * trunkScale(tree, species);
     out.push_back(shape == TrunkShape::ROUND ? crowd::discObstacle(at, radius)
                                              : crowd::boxObstacle(at, radius, radius, tree.yaw));
   };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "sensors/geometry/beer_lambert.h"
+#include "sensors/media/beer_lambert.h"
 
 namespace vegetation_sim::scan {
 

@@ -43,6 +43,11 @@ double radiusAt(const Limb& limb, double f) {
   return limb.base_radius + (limb.tip_radius - limb.base_radius) * f;
 }
 
+// Returns a value in [-1, 1] times the species' noise; 0 leaves the bare rules (S1-12).
+double vary(const Species& species, const Random& random, BranchDraw draw) {
+  return std::min(1.0, species.noise) * random.uniform(draw, -1.0, 1.0);
+}
+
 class Grower {
  public:
   Grower(const TreeSeed& seed, const Species& species) : seed_(seed), species_(species) {}
@@ -65,15 +70,14 @@ class Grower {
  private:
   const LimbRule& rule(int depth) const { return species_.limbs[static_cast<std::size_t>(depth)]; }
 
-  // Returns a value in [-1, 1] times the species' noise; 0 leaves the bare rules (S1-12).
   double vary(const Random& random, BranchDraw draw) const {
-    return std::min(1.0, species_.noise) * random.uniform(draw, -1.0, 1.0);
+    return forest::vary(species_, random, draw);
   }
 
   Limb trunk() const {
     const Random random = Random(seed_.seed).child(TREE);
     Limb out;
-    const double size = seed_.scale * (1.0 + species_.height_variation * vary(random, LENGTH));
+    const double size = trunkScale(seed_, species_);
     out.length = species_.height * size;
     out.base_radius = species_.trunk_radius * size;
     out.tip_radius = out.base_radius * rule(0).taper;
@@ -224,6 +228,11 @@ Quat restRotation(double theta, double phi) {
 
 Vec3 tipOf(const Branch& branch, const Pose& pose) {
   return pose.position + branch.length * axisZ(pose.orientation);
+}
+
+double trunkScale(const TreeSeed& seed, const Species& species) {
+  const double change = vary(species, Random(seed.seed).child(TREE), LENGTH);
+  return seed.scale * (1.0 + species.height_variation * change);
 }
 
 Skeleton grow(const TreeSeed& seed, const Species& species) {

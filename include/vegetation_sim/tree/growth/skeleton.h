@@ -51,6 +51,10 @@ struct Skeleton {
 /// S1-07).
 Skeleton grow(const TreeSeed& seed, const Species& species);
 
+/// Returns the factor on the height and trunk radius of the species with which grow() makes the
+/// trunk of a tree.
+double trunkScale(const TreeSeed& seed, const Species& species);
+
 /// Returns Rz(theta) Ry(phi), the rotation of a child in the frame of its parent.
 Quat restRotation(double theta, double phi);
 

@@ -115,6 +115,18 @@ class ForestState(unittest.TestCase):
         self.assertGreater(self.forest.diagnostics('governor')['Marker points'], 0.5 * MARKER_POINTS)
         markers.close()
 
+    # N14: a latched cylinder for each trunk, at its foot.
+    def test_trunks_are_latched_cylinders(self):
+        trunks = Log('/forest/trunks', MarkerArray)
+        self.clock.run_until(lambda: trunks.messages, 'trunks', self.forest)
+        cylinders = trunks.messages[-1].markers[1:]
+        seeds = self.forest.layout.messages[-1].trees
+        self.assertEqual(len(seeds), TREES)
+        self.assertEqual([(m.id, m.type, m.pose.position.x, m.pose.position.y) for m in cylinders],
+                         [(tree, Marker.CYLINDER, seed.position.x, seed.position.y)
+                          for tree, seed in enumerate(seeds)])
+        trunks.close()
+
     # forest/branches has only the selected trees, with the same poses as get_tree.
     def test_branches_of_selected_trees_are_sent(self):
         branches = Log('/forest/branches', BranchTransforms)

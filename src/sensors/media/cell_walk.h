@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "sensors/geometry/beer_lambert.h"
 #include "sensors/geometry/box.h"
 #include "sensors/geometry/ray.h"
+#include "sensors/media/beer_lambert.h"
 
 namespace vegetation_sim::scan {
 

@@ -1,0 +1,44 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/markers/trunk_markers.h"
+
+#include <algorithm>
+
+#include "vegetation_sim/tree/growth/skeleton.h"
+
+namespace vegetation_sim {
+
+visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
+                                               const terrain::HeightMap& terrain,
+                                               const std::string& frame_id, std::size_t most) {
+  visualization_msgs::MarkerArray out;
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame_id;
+  marker.ns = "trunks";
+  marker.action = visualization_msgs::Marker::DELETEALL;
+  marker.pose.orientation.w = 1.0;
+  out.markers.push_back(marker);
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.type = visualization_msgs::Marker::CYLINDER;
+  marker.color.r = 0.36F;
+  marker.color.g = 0.27F;
+  marker.color.b = 0.19F;
+  marker.color.a = 1.0F;
+  const auto trees = std::min<std::size_t>(layout.treeCount(), most);
+  for (std::uint32_t id = 0; id < trees; ++id) {
+    const forest::TreeSeed seed = seedOf(layout, id);
+    const forest::Species& species = layout.species[seed.species];
+    const double scale = trunkScale(seed, species);
+    const Vec3 foot = forest::footOf(seed, terrain);
+    marker.id = static_cast<std::int32_t>(id);
+    marker.scale.x = marker.scale.y = 2.0 * species.trunk_radius * scale;
+    marker.scale.z = species.height * scale;
+    marker.pose.position.x = foot.x();
+    marker.pose.position.y = foot.y();
+    marker.pose.position.z = foot.z() + 0.5 * marker.scale.z;
+    out.markers.push_back(marker);
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim

@@ -1,0 +1,20 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cstddef>
+
+#include "vegetation_sim/tree/growth/forest_layout.h"
+
+namespace vegetation_sim {
+
+/// Returns an upright cylinder per tree, with the radius of the trunk at the ground and its height,
+/// after a marker that deletes those before (N14). The id of a marker is that of its tree.
+/// @param most number of trees, those with the lowest ids. @param frame_id world frame.
+visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
+                                               const terrain::HeightMap& terrain,
+                                               const std::string& frame_id, std::size_t most);
+
+}  // namespace vegetation_sim
