@@ -157,7 +157,7 @@ bool ForestReplica::updateModes(const StateUpdate& update) {
 }
 
 void ForestReplica::restoreModes(const StateUpdate& update) {
-  const ModalContext at{*layout_, *terrain_, wind_};
+  const ModalContext at{*layout_, *terrain_, wind_, &broken_};
   std::size_t at_once = fine_modes_ == FineModes::AT_ONCE ? MOST_AT_ONCE : 0;
   bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
