@@ -14,6 +14,7 @@ namespace vegetation_sim::scan {
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
     : id_(id),
+      broken_(brokenOf(forest.broken(), id)),
       tree_(forest.grow(id)),
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
       poser_(tree_) {
@@ -86,6 +87,7 @@ void PosedTree::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t first
 }
 
 bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
+  if (isGone(branch)) return false;
   Meeting meeting;
   const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
   if (wood) {
@@ -118,7 +120,7 @@ void PosedTree::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path
 }
 
 void PosedTree::addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const {
-  if (path.isBlocked()) return;
+  if (path.isBlocked() || isGone(branch)) return;
   Meeting meeting;
   if (scan::meet(ray, rods_[branch], path.end().distance, meeting)) return path.block();
   if (!(leaf_radii_[branch] > 0.0)) return;

@@ -31,6 +31,11 @@ class PosedTree {
   /// Does the same if the tree moves or moved last time.
   void follow(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
 
+  /// Returns whether the tree has lost branches since it was grown.
+  bool isOutdated(const forest::ForestReplica& forest) const {
+    return !(broken_ == brokenOf(forest.broken(), id_));
+  }
+
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
   /// Unlit colours of bark and leaves.
@@ -63,7 +68,10 @@ class PosedTree {
   void placeRods();
   bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
+  bool isGone(std::size_t branch) const { return tree_.skeleton.branches[branch].broken; }
+
   std::uint32_t id_;
+  forest::BrokenBranches broken_;
   forest::Tree tree_;
   forest::TreePaint paint_;
   forest::BatchPoser poser_;

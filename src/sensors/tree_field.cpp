@@ -49,7 +49,7 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   for (const std::uint32_t id : near) {
     std::shared_ptr<PosedTree>& tree = known[id];
     if (const auto size = sizes_.find(id); size != sizes_.end() && !fits(size->second)) break;
-    if (!tree) {
+    if (!tree || tree->isOutdated(forest)) {
       tree = std::make_shared<PosedTree>(forest, id);
       ++grown_;
     }

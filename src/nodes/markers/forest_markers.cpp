@@ -148,9 +148,11 @@ void ForestMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds sta
   for (const auto& [height_px, id] : order_) {
     Drawn& entry = drawn[id] = drawn_[id];
     const int level = forest::geometryLevel(height_px * feedback_.factor(), entry.level);
-    if (level != entry.level || !entry.mesh) {
+    const forest::BrokenBranches& broken = brokenOf(forest_.broken(), id);
+    if (level != entry.level || !entry.mesh || !(entry.broken == broken)) {
       const auto grown = cache_.get(forest_, id);
       entry.level = level;
+      entry.broken = broken;
       entry.mesh = std::make_shared<const forest::TreeMesh>(
           buildMesh(grown->tree.skeleton, forest_.layout().species[grown->tree.seed.species],
                     forest::meshDetail(level)));

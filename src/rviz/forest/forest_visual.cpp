@@ -150,7 +150,7 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
     applyDelta();
   if (!tree_set_) return;
   runFadeClock(wall);
-  chooseLevels(view, options);
+  chooseLevels(replica, view, options);
   move(replica, stamp, view, options);
   measure(view, options);
 }
@@ -184,8 +184,19 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   return true;
 }
 
+// A tree that has lost branches is drawn without them at once.
+bool ForestVisual::regrow(const forest::ForestReplica& replica, DrawnTree& tree,
+                          const Options& options) {
+  if (!tree.isOutdated(replica)) return false;
+  tree.regrow(replica);
+  if (tree.level() < 0) return false;
+  tree.setLevel(tree.level(), tree_set_->light(), options.look);
+  return true;
+}
+
 // Near batches are drawn first, and are the first to get their level if time is short.
-void ForestVisual::chooseLevels(const View& view, const Options& options) {
+void ForestVisual::chooseLevels(const forest::ForestReplica& replica, const View& view,
+                                const Options& options) {
   const bool bare = report_.triangles == 0 || report_.waiting > tree_batches_.size();
   const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
   std::sort(tree_batches_.begin(), tree_batches_.end(), [&](const auto& a, const auto& b) {
@@ -202,6 +213,7 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
     bool changed = false;
     for (DrawnTree* tree : batch->trees()) {
       const int before = tree->fading() ? 1 : 0;
+      changed = regrow(replica, *tree, options) || changed;
       changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
       report_.fading += (tree->fading() ? 1 : 0) - before;
     }

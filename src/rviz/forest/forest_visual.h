@@ -60,7 +60,8 @@ class ForestVisual {
   bool prepare(const View& view, const Options& options);
   void applyDelta();
   void runFadeClock(double wall);
-  void chooseLevels(const View& view, const Options& options);
+  void chooseLevels(const forest::ForestReplica& replica, const View& view, const Options& options);
+  bool regrow(const forest::ForestReplica& replica, DrawnTree& tree, const Options& options);
   bool changeLevel(DrawnTree& tree, const View& view, const Options& options, bool in_time);
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);

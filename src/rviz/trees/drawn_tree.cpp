@@ -45,10 +45,18 @@ void setFade(float fade, DrawnTree::Shape& shape) {
 DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin)
     : id_(id),
       origin_(origin),
+      broken_(brokenOf(replica.broken(), id)),
       tree_(replica.grow(id)),
       species_(replica.layout().species.at(tree_.seed.species)),
       paint_(species_, tree_.seed.seed),
       poser_(tree_) {}
+
+void DrawnTree::regrow(const forest::ForestReplica& replica) {
+  broken_ = brokenOf(replica.broken(), id_);
+  tree_ = replica.grow(id_);
+  poser_ = forest::BatchPoser(tree_);
+  painted_by_level_ = false;
+}
 
 void DrawnTree::addTo(forest::LightGrid& light) const {
   const double area = forest::LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;

@@ -28,6 +28,13 @@ class DrawnTree {
   /// Grows the tree. @param origin origin of all coordinates that it returns, layout's frame [m].
   DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
 
+  /// Returns whether the tree has lost branches since it was grown.
+  bool isOutdated(const forest::ForestReplica& replica) const {
+    return !(broken_ == brokenOf(replica.broken(), id_));
+  }
+  /// Grows the tree again; setLevel() has to follow.
+  void regrow(const forest::ForestReplica& replica);
+
   std::uint32_t id() const { return id_; }
   const Vec3& origin() const { return origin_; }
   const Vec3& foot() const { return tree_.foot; }  ///< layout's frame [m]
@@ -79,6 +86,7 @@ class DrawnTree {
 
   std::uint32_t id_;
   Vec3 origin_;
+  forest::BrokenBranches broken_;
   forest::Tree tree_;
   forest::Species species_;
   forest::TreePaint paint_;
