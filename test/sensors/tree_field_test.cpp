@@ -83,6 +83,41 @@ TEST(Trees, KeptFromScanToScanAreWhereNewOnesWouldBe) {
   EXPECT_GT(differences(seen(forest, 3.0), seen(forest, 9.0)), RAYS / 10);
 }
 
+// What has come off a tree is met no more, by sensors that had seen it too; all else is.
+TEST(Trees, AreMetWithoutWhatHasComeOff) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  const Trees before = seen(forest, 0.0);
+  Trees kept = seen(forest, 0.0);
+  std::array<int, 4> roots{};  // the lowest limb of each tree
+  forest::StateUpdate update;
+  update.stamp = START;
+  update.layout_hash = forest.layoutHash();
+  update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
+  for (std::uint32_t id = 0; id < roots.size(); ++id) {
+    roots[id] = forest.grow(id).skeleton.depth_end[0];
+    forest::BrokenBranch broken;
+    broken.branch = roots[id];
+    update.trees.push_back({id, update.base, {}, {}, {broken}});
+  }
+  ASSERT_TRUE(forest.apply(update)) << forest.why();
+  kept.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(differences(kept, seen(forest, 0.0)), 0);
+  int lost = 0;
+  for (std::uint64_t i = 0; i < RAYS; ++i) {
+    const Hit was = castAt(before, i), is = castAt(kept, i);
+    const auto is_gone = [&](const Hit& hit) {
+      return (hit.label == Label::BRANCH || hit.label == Label::LEAF) &&
+             forest.grow(hit.plant).skeleton.branches[static_cast<std::size_t>(hit.branch)].broken;
+    };
+    EXPECT_FALSE(is_gone(is)) << i;
+    if (is_gone(was))
+      ++lost;
+    else
+      EXPECT_TRUE(same(was, is)) << i;
+  }
+  EXPECT_GT(lost, RAYS / 300);
+}
+
 TEST(Trees, AreTheSameForAnyNumberOfThreads) {
   const auto forest = movingForest(forest::gridLayout(3, 7.0), breezeOf(Vec3(6, 2, 0)));
   ThreadPool threads(3);
