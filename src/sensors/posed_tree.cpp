@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sensors/geometry/beer_lambert.h"
 #include "tree/mesh/mesh.h"
@@ -13,9 +14,19 @@
 namespace vegetation_sim::scan {
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
+    : PosedTree(forest, id, forest.grow(id)) {
+  broken_ = brokenOf(forest.broken(), id);
+}
+
+PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id,
+                     std::shared_ptr<const forest::FallingPiece> piece)
+    : PosedTree(forest, id, piece->tree()) {
+  piece_ = std::move(piece);
+}
+
+PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree)
     : id_(id),
-      broken_(brokenOf(forest.broken(), id)),
-      tree_(forest.grow(id)),
+      tree_(std::move(tree)),
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
       poser_(tree_) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
@@ -71,8 +82,20 @@ void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
   rod_tree_.fit(rods_, leaf_radii_, tree_.foot);
 }
 
+void PosedTree::posePiece(Nanoseconds stamp) {
+  narrowPoses(piece_->poseAt(stamp), poses_);
+  placeRods();
+  rod_tree_.fit(rods_, leaf_radii_, tree_.foot);
+}
+
 void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
                        const wind::Instant& wind) {
+  if (piece_) {
+    const bool falls = stamp < piece_->restsFrom();
+    if (falls || moved_) posePiece(stamp);
+    moved_ = falls;
+    return;
+  }
   const bool moves = forest::movingDepths(forest.weights(id_, stamp)) > 0 ||
                      forest.modalState(id_) != nullptr || !forest.promoted(id_).branches.empty();
   if (moves || moved_) pose(forest, stamp, wind);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "forest/falling_piece.h"
 #include "sensors/geometry/light_path.h"
 #include "sensors/geometry/ranked_hit.h"
 #include "sensors/geometry/rod_tree.h"
@@ -25,6 +27,9 @@ class PosedTree {
   };
   /// Grows the tree.
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id);
+  /// A piece that has come off a tree. @param id see Trees.
+  PosedTree(const forest::ForestReplica& forest, std::uint32_t id,
+            std::shared_ptr<const forest::FallingPiece> piece);
 
   /// Moves all branches to `stamp`. @param wind of that stamp.
   void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
@@ -34,6 +39,10 @@ class PosedTree {
   /// Returns whether the tree has lost branches since it was grown.
   bool isOutdated(const forest::ForestReplica& forest) const {
     return !(broken_ == brokenOf(forest.broken(), id_));
+  }
+  /// Returns whether it is the piece of a record.
+  bool isPiece(const forest::BrokenBranch& record) const {
+    return piece_ && piece_->record() == record;
   }
 
   std::uint32_t id() const { return id_; }
@@ -64,6 +73,8 @@ class PosedTree {
   void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
 
  private:
+  PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree);
+  void posePiece(Nanoseconds stamp);
   void addLeaves(const forest::Species& species);
   void placeRods();
   bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
@@ -72,6 +83,7 @@ class PosedTree {
 
   std::uint32_t id_;
   forest::BrokenBranches broken_;
+  std::shared_ptr<const forest::FallingPiece> piece_;  ///< null: a tree
   forest::Tree tree_;
   forest::TreePaint paint_;
   forest::BatchPoser poser_;

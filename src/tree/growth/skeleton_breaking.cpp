@@ -54,4 +54,25 @@ void breakOff(const BrokenBranches& broken, Skeleton& skeleton) {
   }
 }
 
+void keepPiece(int branch, Skeleton& skeleton) {
+  std::vector<Branch>& branches = skeleton.branches;
+  if (!canComeOff(skeleton, branch))
+    throw InvalidInput("broken branch = " + std::to_string(branch) + " is outside 1 to " +
+                           std::to_string(branches.size() - 1),
+                       FaultCode::UNKNOWN);
+  std::vector<char> kept(branches.size(), 0);
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    Branch& own = branches[i];
+    const bool carried = own.parent >= 0 && kept[static_cast<std::size_t>(own.parent)];
+    kept[i] = static_cast<int>(i) == branch || carried;
+    if (kept[i] && !carried && own.parent >= 0) {
+      Branch& parent = branches[static_cast<std::size_t>(own.parent)];
+      if (parent.next == branch) parent.next = -1;
+    }
+    if (kept[i]) continue;
+    own.broken = true;
+    own.leaves = 0;
+  }
+}
+
 }  // namespace vegetation_sim::forest

@@ -79,6 +79,10 @@ const BrokenBranches& brokenOf(const BrokenTrees& trees, std::uint32_t tree);
 /// @throws InvalidInput for a branch that the tree does not have, and for its foot.
 void breakOff(const BrokenBranches& broken, Skeleton& skeleton);
 
+/// Leaves of a skeleton only a branch with what it carries; all else counts as broken, without
+/// leaves, but keeps size and place.
+void keepPiece(int branch, Skeleton& skeleton);
+
 /// Returns Rz(theta) Ry(phi), the rotation of a child in the frame of its parent.
 Quat restRotation(double theta, double phi);
 
