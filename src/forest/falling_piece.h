@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "vegetation_sim/terrain/height_map.h"
 #include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {
