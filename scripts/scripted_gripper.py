@@ -103,6 +103,8 @@ class ScriptedGripper:
                                has_lease=True, lease=1.0)
             self.grab_id = answer.id if answer.success else None
             rospy.loginfo('grab: %s', answer.message)
+        elif name == 'wait':
+            self.choose()  # The branch may have broken off.
         elif name == 'open' and self.grab_id is not None:
             rospy.loginfo('release: %s', self.release(id=self.grab_id).message)
             self.grab_id, self.wrench = None, None

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Vector3Stamped
 from vegetation_sim.client import (Client, VegetationError, given, header, numbers, point, stamped,
                                    vector)
 from vegetation_sim.msg import GrabStatuses
-from vegetation_sim.srv import ApplyForce, FindTrees, GetTree, Grab, MoveGrab, Pick, Release
+from vegetation_sim.srv import ApplyForce, CutBranch, FindTrees, GetTree, Grab, MoveGrab, Pick, Release
 
 PAGE = 100  # trees, the largest of ~find_trees
 RENEWALS = 3.0  # per lease
@@ -65,6 +65,13 @@ class Forest(Client):
         return self.call('apply_force', ApplyForce, duration=duration,
                          force=Vector3Stamped(vector=vector(force)),
                          **self._place(tree, branch, along, near, ''))
+
+    def cut(self, tree=None, branch=None, near=None):
+        """Cuts off a branch, or that nearest to the point `near`, with all that it carries. Returns
+        its tree, branch and joint."""
+        place = self._place(tree, branch, 0.0, near, '')
+        place.pop('along', None)
+        return self.call('cut_branch', CutBranch, **place)
 
     def release_all(self):
         self.call('release', Release, all=True)

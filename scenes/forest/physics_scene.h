@@ -36,7 +36,9 @@ struct PhysicsRig {
 
   explicit PhysicsRig(const PhysicsSettings& physics = {}, int side = 1,
                       const char* species = "oak")
-      : forest(makeLayout(side, species), flatTerrain(), makeSettings()),
+      : PhysicsRig(makeLayout(side, species), physics) {}
+  explicit PhysicsRig(Layout layout, const PhysicsSettings& physics = {})
+      : forest(std::move(layout), flatTerrain(), makeSettings()),
         tree(growTree(forest.layout(), 0, forest.terrain())) {
     forest.setPhysics(physics);
     tick = grid.tickAt(PHYSICS_START);

@@ -89,6 +89,8 @@ void Forest::advancePhysics(Nanoseconds stamp) {
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
+  for (const Break& broken : snapshot_.physics.breaks())
+    for (TreeDetail* detail : details()) detail->loseBranches(broken.tree);
   updateOffsets(snapshot_.sensed);
   updateOffsets(snapshot_.view);
 }
@@ -123,7 +125,8 @@ void Forest::chooseDetail(Nanoseconds before) {
   const Bodies& bodies = snapshot_.physics.bodies();
   const double physical =
       1e-6 * settings.budget.physical_cost * static_cast<double>(snapshot_.physics.branchCount());
-  const PredictionContext context{layout_, *terrain_, snapshot_.wind, settings, errors_, stamp};
+  const PredictionContext context{
+      layout_, *terrain_, snapshot_.wind, settings, errors_, stamp, &snapshot_.physics.broken()};
   DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr};
   world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
   start.compute = !world_chooser_.hasComputed();
@@ -161,6 +164,9 @@ void Forest::release(std::uint32_t id) {
 }
 void Forest::push(const Push& push) {
   snapshot_.physics.push(stepContext(), push);
+}
+void Forest::cut(const BranchCut& cut) {
+  snapshot_.physics.cut(stepContext(), cut);
 }
 void Forest::setBody(const Body& body) {
   snapshot_.physics.setBody(body);
@@ -228,7 +234,7 @@ StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
   out.blend = snapshot_.physics.settings().blend;
-  listener.trees.addTo(out, physicalTrees(),
+  listener.trees.addTo(out, physicalTrees(), snapshot_.physics.broken(),
                        [&](std::uint32_t id) { return promotedFor(listener, id); });
   return out;
 }

@@ -55,7 +55,7 @@ class Forest {
   ForestSnapshot readArchived(std::string bytes, Nanoseconds shift = 0) const;
   /// Computes now what the first tick with a listener nearby would otherwise compute.
   void precompute() { errors_.precompute(layout_); }
-  /// Resets the state; keeps layout, wind and settings.
+  /// Resets the state and makes broken trees whole; keeps layout, wind and settings.
   void reset();
 
   /// Advances one tick: steps physics and modes, then chooses the tiers of every tree from wind,
@@ -71,6 +71,7 @@ class Forest {
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
   void push(const Push& push);
+  void cut(const BranchCut& cut);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setPhysics(const PhysicsSettings& settings);
@@ -84,8 +85,11 @@ class Forest {
   const PhysicsSettings& physicsSettings() const { return snapshot_.physics.settings(); }
   const HeldGrabs& grabs() const { return snapshot_.physics.grabs(); }
   const Bodies& bodies() const { return snapshot_.physics.bodies(); }
-  /// Grabs whose lease ran out at the last tick.
-  const std::vector<Grab>& ended() const { return snapshot_.physics.ended(); }
+  /// Grabs that ended at the last tick by their lease or with their branch.
+  const std::vector<EndedGrab>& ended() const { return snapshot_.physics.ended(); }
+  /// What has come off the trees, and what did so at the last tick.
+  const BrokenTrees& broken() const { return snapshot_.physics.broken(); }
+  const std::vector<Break>& breaks() const { return snapshot_.physics.breaks(); }
   /// Reactions on bodies that hold or touch branches, at the end of the last tick.
   const std::vector<Reaction>& reactions() const { return snapshot_.physics.reactions(); }
   PhysicsFigures physicsFigures() const;

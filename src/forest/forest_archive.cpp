@@ -65,24 +65,31 @@ class Grower {
          const ForestSnapshot& read)
       : layout_(layout),
         terrain_(terrain),
+        present_(present.physics),
+        read_(read.physics),
         sources_{&present.world, &present.sensed.trees, &present.view.trees, &read.world,
                  &read.sensed.trees} {}
 
   std::shared_ptr<const Tree> tree(std::uint32_t id) const {
-    return std::make_shared<const Tree>(growTree(layout_, id, terrain_));
+    return std::make_shared<const Tree>(
+        growTree(layout_, id, terrain_, brokenOf(read_.broken(), id)));
   }
   ModalTreeState modes(std::uint32_t tree, std::size_t modes) const {
-    for (const TreeDetail* source : sources_) {
+    const bool same = brokenOf(present_.broken(), tree) == brokenOf(read_.broken(), tree);
+    for (std::size_t i = same ? 0 : PRESENT; i < sources_.size(); ++i) {
+      const TreeDetail* source = sources_[i];
       const ModalTreeState* found = source->modes.find(tree);
       if (found && found->modes().size() == modes) return *found;
     }
     const wind::Field calm;
-    return ModalForest::computeModes({layout_, terrain_, calm}, tree, modes);
+    return ModalForest::computeModes({layout_, terrain_, calm, &read_.broken()}, tree, modes);
   }
 
  private:
   const Layout& layout_;
   const terrain::HeightMap& terrain_;
+  const ForestPhysics &present_, &read_;
+  static constexpr std::size_t PRESENT = 3;  // sources that the forest holds already
   std::array<const TreeDetail*, 5> sources_;
 };
 
@@ -107,6 +114,7 @@ void archive(Archive& a, const Layout& layout, const Grower& grower, ForestSnaps
       "sensors", snapshot.sensors, MOST_LISTENERS, SENSOR_BYTES,
       [&a](std::string& id) { a.text("sensor", id, LONGEST_NAME); },
       [&a](const std::string&, Sensor& sensor) { archive(a, sensor); });
+  snapshot.physics.archiveBroken(a, layout);
   archive(a, snapshot.world, trees, modes_of);
   snapshot.physics.archive(a, layout, [&](std::uint32_t tree) { return grower.tree(tree); });
   a.list("viewers", snapshot.viewers, MOST_LISTENERS, EYE_BYTES,

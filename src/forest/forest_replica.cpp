@@ -25,6 +25,7 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   terrain_ = std::move(terrain);
   promoted_.clear();  // its branches may be missing in the new trees
   branch_counts_.clear();
+  broken_.clear();
   modes_.clear();
   in_sequence_ = false;
   why_ = "no key frame since the layout";
@@ -33,6 +34,7 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
 void ForestReplica::forgetState() {
   levels_.reset({});
   promoted_.clear();
+  broken_.clear();
   modes_.clear();
   in_sequence_ = false;
   stamp_ = 0;
@@ -64,6 +66,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
   else
     levels_.setBase(update.base);
   if (update.key_frame) promoted_.clear();
+  updateBroken(update);
   for (const StateUpdate::Entry& entry : update.trees) {
     if (entry.state == update.base)
       levels_.resetToBase(entry.tree);  // listed for its physical joints
@@ -95,20 +98,43 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
       faults.add(name + " is not below the " + std::to_string(trees) + " trees of the layout");
       continue;
     }
-    if (entry.promoted.empty()) continue;
+    if (entry.promoted.empty() && entry.broken.empty()) continue;
     auto count = branch_counts_.find(entry.tree);
     if (count == branch_counts_.end()) {
       if (grown > MOST_GROWN) return false;
       count = branch_counts_.emplace(entry.tree, grow(entry.tree).skeleton.branches.size()).first;
       grown += count->second;
     }
-    const int last = entry.promoted.back().branch;
-    if (static_cast<std::size_t>(last) >= count->second)
-      faults.add(name + ": branch " + std::to_string(last) + " is not below its " +
-                 std::to_string(count->second) + " branches");
+    const auto check_branch = [&, branches = count->second](int branch) {
+      if (static_cast<std::size_t>(branch) >= branches)
+        faults.add(name + ": branch " + std::to_string(branch) + " is not below its " +
+                   std::to_string(branches) + " branches");
+    };
+    if (!entry.promoted.empty()) check_branch(entry.promoted.back().branch);
+    for (const BrokenBranch& broken : entry.broken) {
+      check_branch(broken.branch);
+      if (broken.branch < 1) faults.add(name + ": its foot cannot come off");
+    }
   }
   faults.throwIfAny();
   return true;
+}
+
+// A tree that has lost branches has other modes from then on.
+void ForestReplica::updateBroken(const StateUpdate& update) {
+  BrokenTrees now;
+  if (!update.key_frame) now = broken_;
+  for (const StateUpdate::Entry& entry : update.trees) {
+    if (entry.broken.empty())
+      now.erase(entry.tree);
+    else
+      now[entry.tree] = entry.broken;
+  }
+  for (const BrokenTrees* trees : {&broken_, &now})
+    for (const auto& entry : *trees)
+      if (!(brokenOf(broken_, entry.first) == brokenOf(now, entry.first)))
+        modes_.removeTree(entry.first);
+  broken_ = std::move(now);
 }
 
 // Between key frames modes are stepped as in the forest.
@@ -131,7 +157,7 @@ bool ForestReplica::updateModes(const StateUpdate& update) {
 }
 
 void ForestReplica::restoreModes(const StateUpdate& update) {
-  const ModalContext at{*layout_, *terrain_, wind_};
+  const ModalContext at{*layout_, *terrain_, wind_, &broken_};
   std::size_t at_once = fine_modes_ == FineModes::AT_ONCE ? MOST_AT_ONCE : 0;
   bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {

@@ -26,9 +26,10 @@ std::optional<Nearest> nearestBranch(const Layout& layout, const terrain::Height
   for (const std::uint32_t id : findTreesNear(layout, terrain, point, reach)) {
     const PosedTree tree = posed(id);
     for (std::size_t i = 0; i < tree.poses.size(); ++i) {
-      Nearest here =
-          nearestOn(tree.tree->skeleton.branches[i], tree.tree->foot + tree.poses[i].position,
-                    axisZ(tree.poses[i].orientation), point);
+      const Branch& branch = tree.tree->skeleton.branches[i];
+      if (branch.broken) continue;
+      Nearest here = nearestOn(branch, tree.tree->foot + tree.poses[i].position,
+                               axisZ(tree.poses[i].orientation), point);
       if (here.distance > reach || (best && best->distance <= here.distance)) continue;
       here.at.tree = id;
       here.at.branch = static_cast<int>(i);

@@ -85,6 +85,7 @@ std::optional<Picked> pickBranch(const Tree& tree, const std::vector<Pose>& pose
   std::optional<Picked> best;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Branch& branch = tree.skeleton.branches[i];
+    if (branch.broken) continue;
     const Vec3 base = tree.foot + poses[i].position, axis = axisZ(poses[i].orientation);
     const Closest hit = nearest(ray.origin, direction, base, axis, branch.length);
     const double f = hit.on_axis / branch.length;

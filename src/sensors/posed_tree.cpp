@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sensors/media/beer_lambert.h"
 #include "tree/mesh/mesh.h"
@@ -13,8 +14,19 @@
 namespace vegetation_sim::scan {
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
+    : PosedTree(forest, id, forest.grow(id)) {
+  broken_ = brokenOf(forest.broken(), id);
+}
+
+PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id,
+                     std::shared_ptr<const forest::FallingPiece> piece)
+    : PosedTree(forest, id, piece->tree()) {
+  piece_ = std::move(piece);
+}
+
+PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree)
     : id_(id),
-      tree_(forest.grow(id)),
+      tree_(std::move(tree)),
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
       poser_(tree_),
       origin_(tree_.foot) {
@@ -70,17 +82,34 @@ void PosedTree::pose(const forest::ForestReplica& forest, Nanoseconds stamp,
   placeRods();
 }
 
-void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
-                       const wind::Instant& wind, const Vec3& origin) {
-  const bool moves = forest::movingDepths(forest.weights(id_, stamp)) > 0 ||
-                     forest.modalState(id_) != nullptr || !forest.promoted(id_).branches.empty();
-  if (moves || moved_) pose(forest, stamp, wind);
-  if (moves || moved_ || origin_ != origin) rod_tree_.fit(rods_, leaf_radii_, origin);
-  moved_ = moves;
+void PosedTree::posePiece(Nanoseconds stamp) {
+  narrowPoses(piece_->poseAt(stamp), poses_);
+  placeRods();
+}
+
+void PosedTree::fit(bool moved, const Vec3& origin) {
+  if (moved || origin_ != origin) rod_tree_.fit(rods_, leaf_radii_, origin);
   origin_ = origin;
 }
 
+void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
+                       const wind::Instant& wind, const Vec3& origin) {
+  if (piece_) {
+    const bool falls = stamp < piece_->restsFrom();
+    if (falls || moved_) posePiece(stamp);
+    fit(falls || moved_, origin);
+    moved_ = falls;
+    return;
+  }
+  const bool moves = forest::movingDepths(forest.weights(id_, stamp)) > 0 ||
+                     forest.modalState(id_) != nullptr || !forest.promoted(id_).branches.empty();
+  if (moves || moved_) pose(forest, stamp, wind);
+  fit(moves || moved_, origin);
+  moved_ = moves;
+}
+
 bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
+  if (isGone(branch)) return false;
   Meeting meeting;
   const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
   if (wood) {
@@ -108,7 +137,7 @@ bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) con
 }
 
 void PosedTree::addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const {
-  if (path.isBlocked()) return;
+  if (path.isBlocked() || isGone(branch)) return;
   Meeting meeting;
   if (scan::meet(ray, rods_[branch], path.end().distance, meeting)) return path.block();
   if (!(leaf_radii_[branch] > 0.0)) return;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "forest/falling_piece.h"
 #include "sensors/geometry/rod_tree.h"
 #include "sensors/media/light_path.h"
 #include "tree/mesh/paint.h"
@@ -24,11 +26,23 @@ class PosedTree {
   };
   /// Grows the tree.
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id);
+  /// A piece that has come off a tree. @param id see Trees.
+  PosedTree(const forest::ForestReplica& forest, std::uint32_t id,
+            std::shared_ptr<const forest::FallingPiece> piece);
 
   /// Moves the branches to `stamp` if they move or moved last time. @param wind of that stamp.
   /// @param origin place near the sensor to which rodTree() is fitted [m].
   void follow(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind,
               const Vec3& origin);
+
+  /// Returns whether the tree has lost branches since it was grown.
+  bool isOutdated(const forest::ForestReplica& forest) const {
+    return !(broken_ == brokenOf(forest.broken(), id_));
+  }
+  /// Returns whether it is the piece of a record.
+  bool isPiece(const forest::BrokenBranch& record) const {
+    return piece_ && piece_->record() == record;
+  }
 
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
@@ -55,12 +69,19 @@ class PosedTree {
   void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
 
  private:
+  PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree);
+  void posePiece(Nanoseconds stamp);
+  void fit(bool moved, const Vec3& origin);
   void addLeaves(const forest::Species& species);
   void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
   void placeRods();
   bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
 
+  bool isGone(std::size_t branch) const { return tree_.skeleton.branches[branch].broken; }
+
   std::uint32_t id_;
+  forest::BrokenBranches broken_;
+  std::shared_ptr<const forest::FallingPiece> piece_;  ///< null: a tree
   forest::Tree tree_;
   forest::TreePaint paint_;
   forest::BatchPoser poser_;

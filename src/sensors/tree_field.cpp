@@ -35,6 +35,36 @@ Vec3 originNear(const Vec3& place) {
 
 }  // namespace
 
+// Adds the pieces that may be in the ball; those that exceed the limit are left out.
+void Trees::addPieces(const forest::ForestReplica& forest, const Vec3& centre, double radius,
+                      Known& known) {
+  if (forest.broken().empty()) return;
+  std::uint32_t id = forest.layout().treeCount();
+  for (const forest::PieceKey& key : piecesOf(forest.broken())) {
+    const forest::BrokenBranches& broken = brokenOf(forest.broken(), key.tree);
+    const forest::BrokenBranch& record = broken[key.number];
+    std::shared_ptr<PosedTree>& piece = known[id];
+    const forest::TreeSeed seed = seedOf(forest.layout(), key.tree);
+    const double reach = seed.scale * sizeBound(forest.layout().species[seed.species]);
+    if (length(record.pose.position - centre) <= radius + reach) {
+      if (!piece || !piece->isPiece(record)) {
+        piece = std::make_shared<PosedTree>(
+            forest, id,
+            std::make_shared<const forest::FallingPiece>(forest.layout(), forest.terrain(),
+                                                         key.tree, broken, key.number));
+        ++grown_;
+      }
+      if (fits(piece->parts())) {
+        branches_ += piece->parts();
+        trees_.push_back(std::move(piece));
+      } else {
+        ++left_out_;
+      }
+    }
+    ++id;
+  }
+}
+
 void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
                    Nanoseconds stamp) {
   ThreadPool alone;
@@ -51,13 +81,11 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   layout_hash_ = forest.layoutHash();
   branches_ = 0;
   const std::vector<std::uint32_t> near = nearestFirst(forest, centre, radius);
-  const auto fits = [&](std::size_t more) {
-    return trees_.empty() || branches_ + more <= most_branches_;
-  };
+  const auto fits = [&](std::size_t more) { return trees_.empty() || this->fits(more); };
   for (const std::uint32_t id : near) {
     std::shared_ptr<PosedTree>& tree = known[id];
     if (const auto size = sizes_.find(id); size != sizes_.end() && !fits(size->second)) break;
-    if (!tree) {
+    if (!tree || tree->isOutdated(forest)) {
       tree = std::make_shared<PosedTree>(forest, id);
       ++grown_;
     }
@@ -69,6 +97,7 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
     trees_.push_back(std::move(tree));
   }
   left_out_ = near.size() - trees_.size();
+  addPieces(forest, centre, radius, known);
   const wind::Instant wind = forest.wind().at(stamp);
   const Vec3 origin = originNear(centre);
   const std::size_t parts = threads.size();

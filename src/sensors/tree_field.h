@@ -21,7 +21,9 @@ class Trees {
   /// out.
   explicit Trees(std::size_t most_branches = 400000) : most_branches_(most_branches) {}
 
-  /// Poses the trees that reach into a ball at a stamp. Requires forest.ready().
+  /// Poses the trees that reach into a ball at a stamp, and the pieces that have come off trees,
+  /// whose ids follow those of the trees in the order in which they came off. Requires
+  /// forest.ready().
   void update(const forest::ForestReplica& forest, const Vec3& centre, double radius,
               Nanoseconds stamp, ThreadPool& threads);
   /// Does the same in the calling thread.
@@ -45,6 +47,11 @@ class Trees {
   std::uint64_t grown() const { return grown_; }
 
  private:
+  using Known = std::map<std::uint32_t, std::shared_ptr<PosedTree>>;
+  void addPieces(const forest::ForestReplica& forest, const Vec3& centre, double radius,
+                 Known& known);
+  bool fits(std::size_t more) const { return branches_ + more <= most_branches_; }
+
   std::size_t most_branches_;
   std::uint64_t layout_hash_{0};
   std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first

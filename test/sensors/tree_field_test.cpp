@@ -83,6 +83,84 @@ TEST(Trees, KeptFromScanToScanAreWhereNewOnesWouldBe) {
   EXPECT_GT(differences(seen(forest, 3.0), seen(forest, 9.0)), RAYS / 10);
 }
 
+// What has come off a tree is met no more, by sensors that had seen it too; all else is.
+TEST(Trees, AreMetWithoutWhatHasComeOff) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  const Trees before = seen(forest, 0.0);
+  Trees kept = seen(forest, 0.0);
+  std::array<int, 4> roots{};  // the lowest limb of each tree
+  forest::StateUpdate update;
+  update.stamp = START;
+  update.layout_hash = forest.layoutHash();
+  update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
+  for (std::uint32_t id = 0; id < roots.size(); ++id) {
+    roots[id] = forest.grow(id).skeleton.depth_end[0];
+    forest::BrokenBranch broken;
+    broken.branch = roots[id];
+    broken.pose.position = Vec3(1e4, 0.0, 0.0);  // the piece falls elsewhere
+    update.trees.push_back({id, update.base, {}, {}, {broken}});
+  }
+  ASSERT_TRUE(forest.apply(update)) << forest.why();
+  kept.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(differences(kept, seen(forest, 0.0)), 0);
+  std::vector<forest::Tree> grown;
+  for (std::uint32_t id = 0; id < roots.size(); ++id) grown.push_back(forest.grow(id));
+  int lost = 0;
+  for (std::uint64_t i = 0; i < RAYS; ++i) {
+    const Hit was = castAt(before, i), is = castAt(kept, i);
+    const auto is_gone = [&](const Hit& hit) {
+      return (hit.label == Label::BRANCH || hit.label == Label::LEAF) &&
+             grown[hit.plant].skeleton.branches[static_cast<std::size_t>(hit.branch)].broken;
+    };
+    EXPECT_FALSE(is_gone(is)) << i;
+    if (is_gone(was))
+      ++lost;
+    else
+      EXPECT_TRUE(same(was, is)) << i;
+  }
+  EXPECT_GT(lost, RAYS / 300);
+}
+
+// The piece is met on the ground below, as a plant whose number follows those of the trees.
+TEST(Trees, PiecesAreMetWhereTheyLie) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  const forest::Tree tree = forest.grow(1);
+  forest::StateUpdate update;
+  update.stamp = START;
+  update.layout_hash = forest.layoutHash();
+  update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
+  forest::BrokenBranch broken;
+  broken.branch = tree.skeleton.depth_end[0];
+  broken.stamp = START;
+  broken.pose = tree.skeleton.branches[static_cast<std::size_t>(broken.branch)].rest;
+  broken.pose.position = Vec3(tree.foot + broken.pose.position);
+  update.trees.push_back({1, update.base, {}, {}, {broken}});
+  ASSERT_TRUE(forest.apply(update)) << forest.why();
+  Trees trees = seen(forest, 0.0);
+  ASSERT_EQ(trees.all().size(), 5u);
+  const auto piece = trees.all().back();
+  EXPECT_EQ(piece->id(), 4u);
+  const std::vector<forest::Branch> gone = forest.grow(1).skeleton.branches;
+  const auto lowest = [&] {
+    double out = 1e9;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      const Rod& rod = piece->rods()[i];
+      if (gone[i].broken) out = std::min(out, Vec3(rod.base + rod.length * rod.axis).z());
+    }
+    return out;
+  };
+  const double above = lowest();
+  trees.update(forest, SENSOR, 60.0, START + fromSeconds(10.0));
+  ASSERT_EQ(trees.all().back(), piece);
+  EXPECT_LT(lowest(), above - 0.5);
+  EXPECT_NEAR(lowest(), 0.0, 1e-3);
+  const Rod& rod = piece->rods()[static_cast<std::size_t>(broken.branch)];
+  const Vec3 middle = rod.base + 0.5 * rod.length * rod.axis;
+  Hit hit;
+  trees.meet(Ray(Vec3(middle + Vec3(0.0, 0.0, 0.2)), Vec3(0.0, 0.0, -1.0)), hit);
+  EXPECT_EQ(hit.plant, 4u);
+}
+
 TEST(Trees, AreTheSameForAnyNumberOfThreads) {
   const auto forest = movingForest(forest::gridLayout(3, 7.0), breezeOf(Vec3(6, 2, 0)));
   ThreadPool threads(3);

@@ -36,7 +36,7 @@ class ForestReplica {
   bool apply(const StateUpdate& update);
   const std::string& why() const { return why_; }
 
-  /// Brings all trees to rest until the next key frame, because time jumped back.
+  /// Brings all trees to rest, whole, until the next key frame, because time jumped back.
   void forgetState();
 
   bool ready() const { return layout_ != nullptr; }
@@ -48,7 +48,12 @@ class ForestReplica {
   Nanoseconds stamp() const { return stamp_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
 
-  Tree grow(std::uint32_t tree) const { return growTree(*layout_, tree, *terrain_); }
+  /// Grows a tree without what has come off it.
+  Tree grow(std::uint32_t tree) const {
+    return growTree(*layout_, tree, *terrain_, brokenOf(broken_, tree));
+  }
+  /// What has come off the trees.
+  const BrokenTrees& broken() const { return broken_; }
   Weights weights(std::uint32_t tree, Nanoseconds stamp) const {
     return weightsAt(levels_.of(tree), stamp, layout_->motion);
   }
@@ -66,6 +71,7 @@ class ForestReplica {
   bool fitsLayout(const StateUpdate& update);
   bool updateModes(const StateUpdate& update);
   void restoreModes(const StateUpdate& update);
+  void updateBroken(const StateUpdate& update);
 
   FineModes fine_modes_;
   std::shared_ptr<const Layout> layout_;
@@ -75,6 +81,7 @@ class ForestReplica {
   LevelMap levels_;
   std::map<std::uint32_t, std::vector<PromotedBranch>> promoted_;
   std::map<std::uint32_t, std::size_t> branch_counts_;  // of trees that were physical once
+  BrokenTrees broken_;
   ModalForest modes_;
   double blend_{1.5};
   bool in_sequence_{false};

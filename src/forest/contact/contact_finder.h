@@ -40,6 +40,7 @@ struct ContactScene {
   /// Returns the pose of every branch of a tree, in the tree's frame.
   std::function<std::vector<Pose>(const Tree&, std::uint32_t tree, Nanoseconds stamp)> pose;
   const TreeGrid* grid{nullptr};  ///< of the layout; null: all trees are compared with each body
+  const BrokenTrees* broken{nullptr};  ///< what has come off the trees; null: nothing
 };
 
 /// The physical branches of one tree at the start of a step; link i is branches[i].
@@ -88,7 +89,12 @@ class ContactFinder {
   std::size_t bytes() const;
 
  private:
-  using Trees = std::map<std::uint32_t, std::shared_ptr<const Tree>>;
+  struct CachedTree {
+    std::shared_ptr<const Tree> tree;
+    BrokenBranches broken;  // with which it was grown
+  };
+  using Trees = std::map<std::uint32_t, CachedTree>;
+  static const Tree& update(const ContactScene& scene, std::uint32_t id, CachedTree& cached);
   ContactTrace trace_;
   mutable std::mutex mutex_;
   mutable std::uint64_t layout_hash_{0};  // of trees_

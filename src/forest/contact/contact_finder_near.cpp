@@ -64,22 +64,31 @@ void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Na
   for (auto it = trees_.begin(); it != trees_.end();)
     it = balls.count(it->first) ? std::next(it) : trees_.erase(it);
   for (const auto& [id, around] : balls) {
-    std::shared_ptr<const Tree>& grown = trees_[id];
-    if (!grown) grown = std::make_shared<const Tree>(growTree(scene.layout, id, scene.terrain));
-    const Tree& tree = *grown;
+    const Tree& tree = update(scene, id, trees_[id]);
     const auto reached = [&](const Ball& b) { return mayReach(tree.skeleton, tree.foot, b); };
     if (std::none_of(around.begin(), around.end(), reached)) continue;
     const std::vector<Pose> poses = scene.pose(tree, id, from);
     std::vector<char> chosen(poses.size(), 0);
     for (std::size_t i = 0; i < poses.size(); ++i)
       for (const Ball& ball : around)
-        if (holds(ball, tree.skeleton.branches[i], poses[i], tree.foot))
+        if (!tree.skeleton.branches[i].broken &&
+            holds(ball, tree.skeleton.branches[i], poses[i], tree.foot))
           addWithBearers(tree.skeleton, static_cast<int>(i), chosen);
     std::vector<int>& branches = near[id];
     for (std::size_t i = 0; i < chosen.size(); ++i)
       if (chosen[i]) branches.push_back(static_cast<int>(i));
     if (branches.empty()) near.erase(id);
   }
+}
+
+// Grows a tree if it is not cached, or has lost branches since.
+const Tree& ContactFinder::update(const ContactScene& scene, std::uint32_t id, CachedTree& cached) {
+  static const BrokenTrees NONE;
+  const BrokenBranches& broken = brokenOf(scene.broken ? *scene.broken : NONE, id);
+  if (!cached.tree || !(cached.broken == broken))
+    cached = {std::make_shared<const Tree>(growTree(scene.layout, id, scene.terrain, broken)),
+              broken};
+  return *cached.tree;
 }
 
 void ContactFinder::releaseTrees() const {
@@ -91,7 +100,7 @@ std::size_t ContactFinder::bytes() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::size_t out = 0;
   for (const auto& entry : trees_) {
-    const Tree& tree = *entry.second;
+    const Tree& tree = *entry.second.tree;
     out += sizeof(Trees::value_type) + sizeof(Tree) +
            tree.skeleton.branches.capacity() * sizeof(Branch) +
            tree.skeleton.groups.capacity() * sizeof(Group) +

@@ -99,8 +99,8 @@ void DetailChooser::startModes(const PredictionContext& context, const Start& st
   const ModalTreeState* like = start.known ? start.known->find(next->id, fine) : nullptr;
   if (!like && !start.compute) return;
   has_computed_ = !like;
-  detail.modes.addTree({context.layout, context.terrain, context.wind}, next->id, fine,
-                       context.stamp, like);
+  detail.modes.addTree({context.layout, context.terrain, context.wind, context.broken}, next->id,
+                       fine, context.stamp, like);
   detail.changed.insert(next->id);
   detail.begun.insert(next->id);
   next->chosen = fine ? FINE_MODAL_TIER : MODAL_LEVEL;

@@ -4,6 +4,7 @@
 
 #include "forest/detail/detail_demand.h"
 #include "forest/detail/tree_errors.h"
+#include "vegetation_sim/tree/growth/skeleton.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
@@ -16,6 +17,7 @@ struct PredictionContext {
   const Settings& settings;
   TreeErrors& errors;  ///< computes response errors when they are first needed
   Nanoseconds stamp;
+  const BrokenTrees* broken{nullptr};  ///< what has come off the trees; null: nothing
 };
 
 /// Predicts the errors and costs of the tiers of trees in the wind of one tick, and which tier the

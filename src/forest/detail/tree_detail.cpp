@@ -29,21 +29,31 @@ void TreeDetail::prune(Nanoseconds stamp, double transition) {
   modes.removeFaded(levels, stamp, transition);
 }
 
+void TreeDetail::loseBranches(std::uint32_t tree) {
+  modes.removeTree(tree);
+  begun.erase(tree);
+  changed.insert(tree);
+}
+
 void TreeDetail::addTo(StateUpdate& update, const std::vector<std::uint32_t>& physical,
+                       const BrokenTrees& broken,
                        const std::function<PromotedTree(std::uint32_t tree)>& promoted) {
   update.sequence = sequence++;
   update.base = levels.base();
   std::set<std::uint32_t> published;
-  if (update.key_frame)
+  if (update.key_frame) {
     for (const auto& entry : levels.held()) published.insert(entry.first);
-  else
+    for (const auto& entry : broken) published.insert(entry.first);
+  } else {
     published = changed;
+  }
   published.insert(physical.begin(), physical.end());
   for (const std::uint32_t tree : published) {
     const ModalTreeState* state = modes.find(tree);
     const bool amplitudes = state && (update.key_frame || begun.count(tree));
     update.trees.push_back({tree, levels.of(tree), promoted(tree).branches,
-                            amplitudes ? state->state() : physics::ModalState()});
+                            amplitudes ? state->state() : physics::ModalState(),
+                            brokenOf(broken, tree)});
   }
   forgetChanges();
 }

@@ -27,9 +27,13 @@ struct TreeDetail {
   void forgetChanges();
   /// Removes what has no more effect at `stamp`.
   void prune(Nanoseconds stamp, double transition);
+  /// Takes note that a tree has lost branches: its modes end, and the next update contains it.
+  void loseBranches(std::uint32_t tree);
   /// Completes an update, whose stamp is set, by the detail of the trees with physical joints and
-  /// of those that are not at the base, or that have changed since the last update.
+  /// of those that have lost branches or are not at the base, or that have changed since the last
+  /// update.
   void addTo(StateUpdate& update, const std::vector<std::uint32_t>& physical,
+             const BrokenTrees& broken,
              const std::function<PromotedTree(std::uint32_t tree)>& promoted);
 };
 

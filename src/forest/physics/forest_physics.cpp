@@ -42,6 +42,7 @@ Vec3 pointOn(const Pose& pose, double along) {
 
 void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
   ended_.clear();
+  breaks_.clear();
   before_.clear();
   const std::vector<Reaction> published = std::move(reactions_);
   reactions_.clear();
@@ -51,6 +52,7 @@ void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
     scratch.windows.clear();
   }
   endLeases(to);
+  cutBranches(context, to);
   if (!subtrees_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(context, to);
   else
@@ -68,6 +70,7 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   promoteLoaded(context, start, to, review);
   steps_ = subtrees_.empty() ? 0 : physicalSteps(start, to);
   stepTrees({context, settings_, bodies_, {start, to, steps_}, review});
+  breakOverloaded(context, to);
   finishTick(to);
 }
 
@@ -110,7 +113,7 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
       ++it;
       continue;
     }
-    ended_.push_back(grab);
+    ended_.push_back({grab, EndedGrab::LEASE_EXPIRED});
     it = grabs_.erase(it);
   }
 }
@@ -122,8 +125,8 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     return pose(context, tree, id, stamp);
   };
   context.contacts.findNear(
-      {context.layout, context.layout_hash, context.terrain, pose_tree, &context.grid}, bodies_,
-      from, to, loaded);
+      {context.layout, context.layout_hash, context.terrain, pose_tree, &context.grid, &broken_},
+      bodies_, from, to, loaded);
   near_.clear();
   for (const auto& entry : loaded) near_.push_back(entry.first);
   for (auto it = persistent_contacts_.begin(); it != persistent_contacts_.end();)
@@ -158,6 +161,8 @@ void ForestPhysics::promoteInTree(const StepContext& context, std::uint32_t tree
   else
     score = predictDeflection(skeleton, subtree.wood(), predictLoads(tree, subtree));
   for (const int branch : loaded) score[static_cast<std::size_t>(branch)] = LOADED;
+  for (std::size_t i = 0; i < score.size(); ++i)
+    if (skeleton.branches[i].broken) score[i] = 0.0;
   std::vector<double> rank = score;  // physical branches rank before others
   for (const SubtreeJoint& joint : subtree.joints()) {
     double& held = rank[static_cast<std::size_t>(joint.branch)];

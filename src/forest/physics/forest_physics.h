@@ -57,10 +57,20 @@ struct HeldGrab : Grab {
 };
 using HeldGrabs = std::map<std::uint32_t, HeldGrab>;
 
+/// A branch that came off in a tick.
+struct Break {
+  std::uint32_t tree{0};
+  BrokenBranch piece;
+  double stress{0.0};                ///< bending stress at its joint; 0: not physical [Pa]
+  double mass{0.0};                  ///< of the piece, with its leaves [kg]
+  std::vector<std::uint32_t> grabs;  ///< ids of the grabs that ended with it
+};
+
 /// Checks a request against a layout and the tree that it names. All throw InvalidInput.
 void checkGrab(const Layout& layout, const Tree& tree, const Grab& grab);
 void checkTarget(const Tree& tree, const Vec3& target);
 void checkPush(const Layout& layout, const Tree& tree, const Push& push);
+void checkCut(const Layout& layout, const Tree& tree, const BranchCut& cut);
 
 /// Grabs, pushes and bodies that act on the trees of a forest, and the physical parts of these
 /// trees. A value: a copy is a snapshot. Requests act from the last tick on; invalid ones throw
@@ -73,12 +83,16 @@ class ForestPhysics {
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
   void push(const StepContext& context, const Push& push);
+  /// Cuts a branch off at the start of the next tick. What it carries goes with it, and grabs of it
+  /// end.
+  void cut(const StepContext& context, const BranchCut& cut);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
   /// @throws InvalidInput if a branch that `what` loads could not be physical now.
   void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
-  /// Removes grabs, pushes, bodies and all physical subtrees; keeps the settings.
+  /// Removes grabs, pushes, bodies and all physical subtrees, and makes broken trees whole; keeps
+  /// the settings.
   void clear();
 
   /// Steps from the last tick to `to` in ceil(PHYSICS_RATE * time) equal steps.
@@ -87,7 +101,11 @@ class ForestPhysics {
   const PhysicsSettings& settings() const { return settings_; }
   const HeldGrabs& grabs() const { return grabs_; }
   const Bodies& bodies() const { return bodies_; }
-  const std::vector<Grab>& ended() const { return ended_; }
+  /// Grabs that ended at the last tick by their lease or with their branch.
+  const std::vector<EndedGrab>& ended() const { return ended_; }
+  /// What has come off the trees, and what did so at the last tick.
+  const BrokenTrees& broken() const { return broken_; }
+  const std::vector<Break>& breaks() const { return breaks_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
   const std::map<std::uint32_t, PhysicalSubtree>& subtrees() const { return subtrees_; }
   /// Returns the joints before the last tick of each tree in which branches have become physical,
@@ -104,7 +122,9 @@ class ForestPhysics {
   /// Returns a grown tree of the layout.
   using GrowTree = std::function<std::shared_ptr<const Tree>(std::uint32_t tree)>;
   /// Writes or reads everything. @throws InvalidInput for a state that does not fit the layout.
+  /// What has come off the trees is read first, by archiveBroken(), because modes depend on it.
   void archive(Archive& a, const Layout& layout, const GrowTree& grow);
+  void archiveBroken(Archive& a, const Layout& layout);
 
  private:
   void archiveSubtrees(Archive& a, const Layout& layout, const GrowTree& grow);
@@ -123,6 +143,11 @@ class ForestPhysics {
   void decayReactions(const std::vector<Reaction>& published, double duration);
   void finishTick(Nanoseconds to);
   bool isLoaded(std::uint32_t tree) const;
+  Tree grow(const StepContext& context, std::uint32_t tree) const;
+  void cutBranches(const StepContext& context, Nanoseconds to);
+  void breakOverloaded(const StepContext& context, Nanoseconds to);
+  BrokenBranch pieceOf(const StepContext& context, const BranchCut& at, Nanoseconds stamp);
+  void takeOff(const StepContext& context, Break broken);
 
   PhysicsSettings settings_;
   HeldGrabs grabs_;
@@ -131,7 +156,10 @@ class ForestPhysics {
   std::map<std::uint32_t, PhysicalSubtree> subtrees_;
   std::map<std::uint32_t, PersistentContacts> persistent_contacts_;
   std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
-  std::vector<Grab> ended_;
+  std::vector<EndedGrab> ended_;
+  std::vector<BranchCut> cuts_;  // at the next tick
+  BrokenTrees broken_;
+  std::vector<Break> breaks_;  // of the last tick
   std::vector<Reaction> reactions_;
   std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};

@@ -6,6 +6,7 @@
 #include "core/archive/archive.h"
 #include "forest/contact/contact_body.h"
 #include "forest/physics/forest_physics.h"
+#include "tree/growth/broken_branch.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -120,16 +121,27 @@ void ForestPhysics::archive(Archive& a, const Layout& layout, const GrowTree& gr
       [&a](std::string& id) { a.text("body", id, LONGEST_NAME); },
       [&a](const std::string&, Body& body) { archiveBody(a, body); });
   archiveContacts(a, layout);
-  a.list("ended grabs", ended_, MOST_ENTRIES, GRAB_BYTES / 2,
-         [&](Grab& grab) { forest::archive(a, points, grab); });
+  a.list("ended grabs", ended_, MOST_ENTRIES, GRAB_BYTES / 2, [&](EndedGrab& grab) {
+    forest::archive(a, points, static_cast<Grab&>(grab));
+    a.integer("reason of an ended grab", grab.reason, EndedGrab::LEASE_EXPIRED,
+              EndedGrab::BRANCH_BROKEN);
+  });
   a.list("reactions", reactions_, MOST_CONTACTS, REACTION_BYTES,
          [&](Reaction& reaction) { forest::archive(a, points, reaction); });
+  a.list("cuts", cuts_, MOST_ENTRIES, sizeof(std::uint32_t) + sizeof(int), [&](BranchCut& cut) {
+    points.tree(cut.tree);
+    points.branch(cut.branch);
+  });
   a.integer<std::uint32_t>("next grab", next_grab_, 1);
   a.stamp("next review", next_review_);
   archiveCount(a, "steps", steps_);
   archiveCount(a, "skipped", skipped_);
   archiveCount(a, "coarse", coarse_);
   if (a.reads()) checkRead(layout, grow);
+}
+
+void ForestPhysics::archiveBroken(Archive& a, const Layout& layout) {
+  forest::archiveBroken(a, layout.treeCount(), broken_);
 }
 
 void ForestPhysics::archiveSubtrees(Archive& a, const Layout& layout, const GrowTree& grow) {
@@ -195,6 +207,7 @@ void ForestPhysics::checkRead(const Layout& layout, const GrowTree& grow) const 
     checkGrab(layout, *tree_of(grab.point.tree), grab);
   }
   for (const Push& push : pushes_) checkPush(layout, *tree_of(push.point.tree), push);
+  for (const BranchCut& cut : cuts_) checkCut(layout, *tree_of(cut.tree), cut);
   for (const auto& [id, body] : bodies_) {
     if (body.id != id) Archive::reject("body id = '" + body.id + "'", "is not its key");
     check(body, faults);

@@ -1,5 +1,6 @@
 // Figures and hash of the physics of a forest.
 #include "forest/physics/forest_physics.h"
+#include "tree/growth/broken_branch.h"
 #include "vegetation_sim/core/config/fields.h"
 
 namespace vegetation_sim::forest {
@@ -18,6 +19,7 @@ PhysicsFigures ForestPhysics::figures() const {
   for (const auto& entry : refused_) out.refused += entry.second;
   out.skipped = skipped_;
   out.coarse = coarse_;
+  out.broken = countBroken(broken_);
   for (const SubtreeScratch& scratch : scratches_) out.replaced += scratch.replaced;
   for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
   return out;
@@ -59,6 +61,11 @@ void ForestPhysics::addTo(Hash& hash) const {
     for (const Nanoseconds stamp : {push.until, push.from})
       hash.add(static_cast<std::uint64_t>(stamp));
   }
+  for (const BranchCut& cut : cuts_) {
+    hash.add(static_cast<std::uint64_t>(cut.tree));
+    hash.add(static_cast<std::uint64_t>(cut.branch));
+  }
+  forest::addTo(hash, broken_);
   for (const auto& [id, body] : bodies_) {
     hash.add(id);
     forest::addTo(hash, body);

@@ -35,6 +35,9 @@ void checkPoint(const Tree& tree, const std::string& what, const BranchPoint& po
                FaultCode::UNKNOWN);
     return;
   }
+  if (branches[static_cast<std::size_t>(point.branch)].broken)
+    return faults.add(what + ": branch = " + std::to_string(point.branch) + " has come off",
+                      FaultCode::UNKNOWN);
   const double most = branches[static_cast<std::size_t>(point.branch)].length;
   const std::string fault = rangeFault(what + ": along", point.along, "m", {0.0, most});
   if (!fault.empty()) faults.add(fault);
@@ -123,7 +126,7 @@ void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int b
 PhysicalSubtree& ForestPhysics::findOrAddSubtree(const StepContext& context, std::uint32_t tree) {
   const auto found = subtrees_.find(tree);
   if (found != subtrees_.end()) return found->second;
-  auto grown = std::make_shared<const Tree>(growTree(context.layout, tree, context.terrain));
+  auto grown = std::make_shared<const Tree>(grow(context, tree));
   const Species& species = context.layout.species[grown->seed.species];
   const auto material = settings_.material;
   return subtrees_.emplace(tree, PhysicalSubtree(std::move(grown), species, material))

@@ -21,7 +21,9 @@ std::size_t modalSteps(Nanoseconds from, Nanoseconds to) {
 
 // A tree with few branches gets all its modes.
 ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
-  const Tree tree = growTree(at.layout, id, at.terrain);
+  static const BrokenTrees NONE;
+  const Tree tree =
+      growTree(at.layout, id, at.terrain, brokenOf(at.broken ? *at.broken : NONE, id));
   const bool few = 2 * tree.skeleton.branches.size() <= ModalDepth{}.most();
   return ModalTreeState(std::make_shared<const ModalTree>(
       tree, at.layout.species[tree.seed.species], fine || few ? FINE_MODES : ModalDepth{}));
@@ -142,6 +144,10 @@ void ModalForest::removeFaded(const LevelMap& levels, Nanoseconds stamp, double 
 
 void ModalForest::retain(const std::set<std::uint32_t>& trees) {
   retainIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
+}
+
+void ModalForest::removeTree(std::uint32_t tree) {
+  retainIf([=](std::uint32_t other) { return other != tree; });
 }
 
 void ModalForest::clear() {

@@ -8,6 +8,7 @@
 
 #include "nodes/base/node_factory.h"
 #include "nodes/markers/trunk_markers.h"
+#include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 
@@ -55,6 +56,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("forest/wrenches", 1000);
   forces_publisher_ = handle_.advertise<ContactForces>("forest/forces", 1000);
   grabs_publisher_ = handle_.advertise<GrabStatuses>("forest/grabs", 100, true);
+  breaks_publisher_ = handle_.advertise<BranchBreak>("forest/breaks", 1000);
   publishLayout();
   start("forest", "forest/markers", markers_);
 }
@@ -70,6 +72,7 @@ void ForestAnimator::connect() {
   serve("move_grab", &ForestAnimator::onMoveGrab);
   serve("release", &ForestAnimator::onRelease);
   serve("apply_force", &ForestAnimator::onApplyForce);
+  serve("cut_branch", &ForestAnimator::onCutBranch);
   repeat(options_.tf_rate, &ForestAnimator::sendFrames);
   repeat(options_.branches_rate, &ForestAnimator::sendBranches);
 }
@@ -108,6 +111,7 @@ void ForestAnimator::tick(std::int64_t tick) {
   publishState(force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0);
   updateGrabs(tick);
   publishForces();
+  publishBreaks();
   force_key_frame_ = false;
 }
 
@@ -174,7 +178,11 @@ void ForestAnimator::followBodies(Nanoseconds stamp) {
 }
 
 void ForestAnimator::updateGrabs(std::int64_t tick) {
-  for (const forest::Grab& grab : forest_->ended()) {
+  for (const forest::EndedGrab& grab : forest_->ended()) {
+    if (grab.reason == forest::EndedGrab::BRANCH_BROKEN) {
+      grab_manager_.explainEnd(grab.id, GrabStatus::BRANCH_BROKEN);
+      continue;
+    }
     ++leases_ended_;
     ROS_WARN("forest_animator: grab %u ended: not moved or renewed for its lease of %g s", grab.id,
              grab.lease);
@@ -195,6 +203,17 @@ void ForestAnimator::publishForces() {
     if (!force.frame.empty()) message.header.frame_id = force.frame;
     message.wrench = force.wrench;
     wrenches_publisher_.publish(message);
+  }
+}
+
+void ForestAnimator::publishBreaks() {
+  for (const forest::Break& broken : forest_->breaks()) {
+    BranchBreak message = toMsg(broken);
+    message.header.frame_id = options_.frame_id;
+    breaks_publisher_.publish(message);
+    ROS_INFO("forest_animator: tree_%u/branch_%d %s, %.3g kg, at %.3g MPa", broken.tree,
+             broken.piece.branch, broken.piece.cut ? "is cut off" : "breaks", broken.mass,
+             1e-6 * broken.stress);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <tf2_ros/transform_broadcaster.h>
 #include <vegetation_sim/ApplyForce.h>
+#include <vegetation_sim/CutBranch.h>
 #include <vegetation_sim/FindTrees.h>
 #include <vegetation_sim/ForestAnimatorConfig.h>
 #include <vegetation_sim/GetTree.h>
@@ -57,6 +58,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void applyInteraction(const ForestInput& event);
   void updateGrabs(std::int64_t tick);
   void publishForces();
+  void publishBreaks();
   void followBodies(Nanoseconds stamp);
   void reportLostGrabs();
   void applyTuning(const ForestTuning& tuning);
@@ -95,6 +97,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   bool onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response);
   bool onRelease(Release::Request& request, Release::Response& response);
   bool onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response);
+  bool onCutBranch(CutBranch::Request& request, CutBranch::Response& response);
   forest::Ray rayOf(const Pick::Request& request) const;
   Nanoseconds stampOf(const ros::Time& stamp) const;
 
@@ -117,7 +120,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher layout_publisher_, trunks_publisher_, state_publisher_, view_publisher_,
-      branches_publisher_, wrenches_publisher_, forces_publisher_, grabs_publisher_;
+      branches_publisher_, wrenches_publisher_, forces_publisher_, grabs_publisher_,
+      breaks_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -43,7 +43,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
   std::size_t sent = 0;
   for (const int id : options_.branches_trees) {
     const auto tree = static_cast<std::uint32_t>(id);
-    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), tree);
+    const auto grown = cache_.get(*forest_, tree);
     sent += grown->tree.skeleton.branches.size();
     if (sent > static_cast<std::size_t>(options_.branches_budget)) {
       ROS_WARN_THROTTLE(10.0, "forest_animator: branches_budget = %d ends at tree %d",
@@ -145,6 +145,7 @@ void ForestAnimator::addPhysics(Status& status) {
   status.add("Physical branches", figures.branches);
   status.add("Physical branches that blend back", figures.blending);
   status.add("Branches kept procedural by the cap", figures.refused);
+  status.add("Branches that have come off", figures.broken);
   status.add("Physics memory [B]", figures.bytes);
   status.add("Physics steps of the last tick", figures.steps);
   status.add("Gaps in time not stepped through", figures.skipped);

@@ -5,6 +5,7 @@
 #include "forest/pick.h"
 #include "forest/trees_around.h"
 #include "nodes/forest/forest_animator.h"
+#include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
@@ -38,7 +39,7 @@ Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
 bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& response) {
   return answer(response, [&] {
     const Nanoseconds stamp = stampOf(request.stamp);
-    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
+    const auto grown = cache_.get(*forest_, request.tree);
     const forest::Skeleton& skeleton = grown->tree.skeleton;
     response.seed = toMsg(grown->tree.seed);
     response.species = forest_->layout().species[grown->tree.seed.species].name;
@@ -59,6 +60,8 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
         toMsg(request.tree, grown->tree.foot, posesOf(*forest_, grown->tree, request.tree, stamp));
     for (const forest::PromotedBranch& branch : forest_->promoted(request.tree).branches)
       response.physical.push_back(static_cast<std::uint32_t>(branch.branch));
+    for (const forest::BrokenBranch& broken : grown->broken)
+      response.broken.push_back(toMsg(broken));
     response.grabs = grab_manager_.grabsOf(request.tree);
     response.transforms.header.stamp = toStamp(stamp);
     response.transforms.header.frame_id = options_.frame_id;
@@ -67,7 +70,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
 }
 
 FoundTree ForestAnimator::foundTree(std::uint32_t id) {
-  const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
+  const auto grown = cache_.get(*forest_, id);
   FoundTree out;
   out.id = id;
   out.position = toPoint(grown->tree.foot);
@@ -118,12 +121,12 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
   return answer(response, [&]() -> std::string {
     const forest::Ray ray = rayOf(request);
     const Nanoseconds stamp = stampOf(request.header.stamp);
-    const auto hit = pickTree(
-        forest_->layout(), forest_->terrain(), ray, [&](std::uint32_t id) -> forest::PosedTree {
-          const auto grown = cache_.get(forest_->layout(), forest_->terrain(), id);
-          return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
-                  forest_->poseInView(grown->tree, id, stamp)};
-        });
+    const auto hit = pickTree(forest_->layout(), forest_->terrain(), ray,
+                              [&](std::uint32_t id) -> forest::PosedTree {
+                                const auto grown = cache_.get(*forest_, id);
+                                return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
+                                        forest_->poseInView(grown->tree, id, stamp)};
+                              });
     if (!hit) throw InvalidInput("the ray meets no branch", FaultCode::NOTHING_FOUND);
     response.tree = hit->tree;
     response.branch = static_cast<std::uint32_t>(hit->branch);
@@ -137,7 +140,7 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
 
 bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response) {
   answer(response, [&] {
-    const auto grown = cache_.get(forest_->layout(), forest_->terrain(), request.tree);
+    const auto grown = cache_.get(*forest_, request.tree);
     const std::size_t count = grown->tree.skeleton.branches.size();
     if (request.all) {
       request.branches.resize(count);
@@ -161,6 +164,10 @@ bool ForestAnimator::onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& 
 
 bool ForestAnimator::onRelease(Release::Request& request, Release::Response& response) {
   return answer(response, [&] { return grab_manager_.release(request); });
+}
+
+bool ForestAnimator::onCutBranch(CutBranch::Request& request, CutBranch::Response& response) {
+  return answer(response, [&] { return grab_manager_.cut(request, response); });
 }
 
 bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {

@@ -12,7 +12,8 @@ namespace vegetation_sim {
 namespace {
 
 bool isInteraction(const ForestInput& input) {
-  return input.kind >= ForestInput::GRAB && input.kind <= ForestInput::RENEW;
+  return (input.kind >= ForestInput::GRAB && input.kind <= ForestInput::RENEW) ||
+         input.kind == ForestInput::CUT;
 }
 
 // Whether `input` makes the waiting input void.
@@ -67,6 +68,10 @@ ForestEvent eventToMsg(const ForestInput& input) {
     case ForestInput::LOAD:
       out.snapshot = input.snapshot;
       break;
+    case ForestInput::CUT:
+      out.cut.tree = input.cut.tree;
+      out.cut.branch = static_cast<std::uint32_t>(input.cut.branch);
+      break;
     default:
       break;
   }
@@ -85,6 +90,7 @@ ForestInput eventFromMsg(const ForestEvent& message) {
   if (message.kind == ForestEvent::FORCE) out.push = fromMsg(message.force);
   out.body = fromMsg(message.body);
   out.snapshot = message.snapshot;
+  out.cut = {message.cut.tree, static_cast<int>(message.cut.branch)};
   return out;
 }
 
@@ -106,6 +112,9 @@ void applyInteraction(const ForestInput& input, forest::Forest& forest) {
       forest.push(
           {input.push.point, input.push.force, input.stamp + input.push.until, input.stamp});
       break;
+    case ForestInput::CUT:
+      forest.cut(input.cut);
+      break;
     case ForestInput::BODY:
       forest.setBody(input.body);
       break;
@@ -113,7 +122,7 @@ void applyInteraction(const ForestInput& input, forest::Forest& forest) {
       forest.removeBody(input.body.id);
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(input.kind) + " is outside 0 to 11");
+      throw InvalidInput("kind = " + std::to_string(input.kind) + " is outside 0 to 12");
   }
 }
 

@@ -36,7 +36,8 @@ struct ForestInput {
     BODY,
     REMOVE_BODY,
     RENEW,
-    LOAD
+    LOAD,
+    CUT
   };
   std::uint8_t kind{SENSOR};
   Nanoseconds stamp{0};   ///< 0: the next tick
@@ -48,6 +49,7 @@ struct ForestInput {
   forest::Push push;        ///< FORCE: from 0 until its duration
   forest::Body body;        ///< BODY: all of it; REMOVE_BODY: id
   LoadedSnapshot snapshot;  ///< LOAD
+  forest::BranchCut cut;    ///< CUT
 };
 inline Nanoseconds stampOf(const ForestInput& input) {
   return input.stamp;
@@ -59,7 +61,7 @@ ForestEvent eventToMsg(const ForestInput& input);
 /// @throws InvalidInput for a force whose duration is out of range.
 ForestInput eventFromMsg(const ForestEvent& message);
 
-/// Applies a grab, its move, renewal or release, a force or a body to the forest. @throws
+/// Applies a grab, its move, renewal or release, a force, a cut or a body to the forest. @throws
 /// InvalidInput, and then nothing has changed, also for another kind.
 void applyInteraction(const ForestInput& input, forest::Forest& forest);
 

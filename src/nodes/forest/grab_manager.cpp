@@ -71,7 +71,7 @@ void GrabManager::enqueue(const ForestInput& event) {
 }
 
 std::shared_ptr<const forest::Tree> GrabManager::grown(std::uint32_t tree) const {
-  const auto found = node_.cache.get(node_.forest.layout(), node_.forest.terrain(), tree);
+  const auto found = node_.cache.get(node_.forest, tree);
   return {found, &found->tree};
 }
 
@@ -84,6 +84,10 @@ GrabManager::Place GrabManager::placeOf(std::uint32_t tree, std::uint32_t branch
                            std::to_string(tree) + " has " + std::to_string(branches.size()) +
                            ", from 0",
                        FaultCode::UNKNOWN);
+  if (branches[branch].broken)
+    throw InvalidInput(
+        "branch = " + std::to_string(branch) + " of tree " + std::to_string(tree) + " has come off",
+        FaultCode::UNKNOWN);
   Faults faults;
   FieldChecker("", faults).number("along", along, "m", {0.0, branches[branch].length});
   faults.throwIfAny();
@@ -306,6 +310,24 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   response.point = toPoint(place.point);
   return "pushes tree_" + std::to_string(response.tree) + "/branch_" +
          std::to_string(response.branch);
+}
+
+std::string GrabManager::cut(const CutBranch::Request& request, CutBranch::Response& response) {
+  requireLive();
+  ForestInput event = eventAt(ForestInput::CUT, request.stamp);
+  event.cut = {request.tree, static_cast<int>(request.branch)};
+  if (request.nearest) {
+    const Place place = nearestTo(request.point);
+    event.cut = {place.at.tree, place.at.branch};
+  }
+  forest::checkCut(node_.forest.layout(), *grown(event.cut.tree), event.cut);
+  const auto branch = static_cast<std::uint32_t>(event.cut.branch);
+  const Place joint = placeOf(event.cut.tree, branch, 0.0);
+  enqueue(event);
+  response.tree = event.cut.tree;
+  response.branch = branch;
+  response.point = toPoint(joint.point);
+  return "cuts tree_" + std::to_string(response.tree) + "/branch_" + std::to_string(branch);
 }
 
 }  // namespace vegetation_sim

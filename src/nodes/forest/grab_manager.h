@@ -7,6 +7,7 @@
 #include <tf2_ros/buffer.h>
 #include <vegetation_sim/ApplyForce.h>
 #include <vegetation_sim/ContactForces.h>
+#include <vegetation_sim/CutBranch.h>
 #include <vegetation_sim/Grab.h>
 #include <vegetation_sim/MoveGrab.h>
 #include <vegetation_sim/Release.h>
@@ -39,9 +40,9 @@ struct GrabDependencies {
 /// Returns the pose of a grab's holder; tf takes orientations whose norm is not quite 1.
 Pose holderPose(const geometry_msgs::TransformStamped& transform);
 
-/// Checks requests to grab, move, release and push, and queues them as events; moves the grabs that
-/// follow a tf frame; reports the wrenches on the bodies that hold or touch branches. A grab itself
-/// is an event until its tick and then an entry of Forest::grabs().
+/// Checks requests to grab, move, release, push and cut, and queues them as events; moves the grabs
+/// that follow a tf frame; reports the wrenches on the bodies that hold or touch branches. A grab
+/// itself is an event until its tick and then an entry of Forest::grabs().
 class GrabManager {
  public:
   explicit GrabManager(GrabDependencies node) : node_(node) {}
@@ -52,6 +53,7 @@ class GrabManager {
   std::string move(const MoveGrab::Request& request, MoveGrab::Response& response);
   std::string release(const Release::Request& request);
   std::string push(const ApplyForce::Request& request, ApplyForce::Response& response);
+  std::string cut(const CutBranch::Request& request, CutBranch::Response& response);
 
   /// Before the tick `stamp`: moves every grab whose frame has a new transform since the last call.
   /// Calls `report` with the name and the fault of each frame that cannot be followed.

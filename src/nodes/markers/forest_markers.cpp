@@ -95,7 +95,7 @@ void ForestMarkers::keepLargest(std::size_t count) {
 }
 
 void ForestMarkers::addTree(std::uint32_t id, Nanoseconds stamp) {
-  const auto grown = cache_.get(forest_.layout(), forest_.terrain(), id);
+  const auto grown = cache_.get(forest_, id);
   const forest::Species& species = forest_.layout().species[grown->tree.seed.species];
   const forest::TreeMesh& mesh = *drawn_[id].mesh;
   wanted_bark_ += mesh.triangles.size();
@@ -148,9 +148,11 @@ void ForestMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds sta
   for (const auto& [height_px, id] : order_) {
     Drawn& entry = drawn[id] = drawn_[id];
     const int level = forest::geometryLevel(height_px * feedback_.factor(), entry.level);
-    if (level != entry.level || !entry.mesh) {
-      const auto grown = cache_.get(forest_.layout(), forest_.terrain(), id);
+    const forest::BrokenBranches& broken = brokenOf(forest_.broken(), id);
+    if (level != entry.level || !entry.mesh || !(entry.broken == broken)) {
+      const auto grown = cache_.get(forest_, id);
       entry.level = level;
+      entry.broken = broken;
       entry.mesh = std::make_shared<const forest::TreeMesh>(
           buildMesh(grown->tree.skeleton, forest_.layout().species[grown->tree.seed.species],
                     forest::meshDetail(level)));

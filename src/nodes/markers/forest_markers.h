@@ -30,6 +30,7 @@ class ForestMarkers : public MarkerBuilder {
   struct Drawn {
     int level{-1};
     std::shared_ptr<const forest::TreeMesh> mesh;
+    forest::BrokenBranches broken;  ///< what had come off the tree
   };
   void chooseTrees(std::vector<Viewpoint> viewers);
   void keepLargest(std::size_t count);

@@ -7,7 +7,9 @@
 #include <map>
 #include <tuple>
 
+#include "ros/conversions/grab_conversions.h"
 #include "ros/conversions/orientation.h"
+#include "tree/growth/broken_branch.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
@@ -128,6 +130,7 @@ TreeState entryToMsg(const forest::StateUpdate::Entry& entry, Nanoseconds now) {
   for (const forest::PromotedBranch& branch : entry.promoted) out.promoted.push_back(toMsg(branch));
   out.amplitude = entry.modal.amplitude;
   out.rate = entry.modal.rate;
+  for (const forest::BrokenBranch& broken : entry.broken) out.broken.push_back(toMsg(broken));
   return out;
 }
 
@@ -151,6 +154,17 @@ std::vector<forest::PromotedBranch> promotedFromMsg(const std::string& name,
       if (!fault.empty()) faults.add(fault);
     }
     out.push_back(fromMsg(branch));
+  }
+  return out;
+}
+
+forest::BrokenBranches brokenFromMsg(const std::string& name,
+                                     const std::vector<BrokenBranch>& broken, Faults& faults) {
+  forest::BrokenBranches out;
+  for (const BrokenBranch& piece : broken) {
+    const std::string branch = name + "broken branch " + std::to_string(piece.branch) + ": ";
+    out.push_back(fromMsg(piece));
+    check(out.back(), branch, faults);
   }
   return out;
 }
@@ -298,11 +312,17 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   if (modal > MOST_MODAL_TREES)
     faults.add("state: " + std::to_string(modal) + " trees in modes, allowed are 0 to " +
                std::to_string(MOST_MODAL_TREES));
+  std::size_t broken = 0;
+  for (const TreeState& tree : message.trees) broken += tree.broken.size();
+  if (broken > forest::MOST_BROKEN)
+    throw InvalidInput("state: " + std::to_string(broken) + " broken branches, allowed are 0 to " +
+                       std::to_string(forest::MOST_BROKEN));
   for (const TreeState& tree : message.trees) {
     const std::string name = "state: tree " + std::to_string(tree.tree) + ": ";
     out.trees.push_back({tree.tree, levelFromMsg(name, tree.level, tree.since, tree.blend, faults),
                          promotedFromMsg(name, tree.promoted, faults),
-                         modalStateFromMsg(name, tree, faults)});
+                         modalStateFromMsg(name, tree, faults),
+                         brokenFromMsg(name, tree.broken, faults)});
   }
   faults.throwIfAny();
   return out;

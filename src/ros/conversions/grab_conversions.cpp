@@ -136,4 +136,37 @@ PlantContact toMsg(const canopy::PushForce& force, const Pose& frame) {
   return out;
 }
 
+BrokenBranch toMsg(const forest::BrokenBranch& broken) {
+  BrokenBranch out;
+  out.branch = static_cast<std::uint32_t>(broken.branch);
+  out.stamp = toStamp(broken.stamp);
+  out.cut = broken.cut;
+  out.pose = toMsg(broken.pose);
+  out.twist.linear = toVector(broken.velocity);
+  out.twist.angular = toVector(broken.spin);
+  return out;
+}
+
+forest::BrokenBranch fromMsg(const BrokenBranch& message) {
+  forest::BrokenBranch out;
+  out.branch = static_cast<int>(message.branch);
+  out.stamp = fromMsg(message.stamp);
+  out.cut = message.cut != 0;
+  out.pose = fromMsg(message.pose);
+  out.velocity = fromMsg(message.twist.linear);
+  out.spin = fromMsg(message.twist.angular);
+  return out;
+}
+
+BranchBreak toMsg(const forest::Break& broken) {
+  BranchBreak out;
+  out.header.stamp = toStamp(broken.piece.stamp);
+  out.tree = broken.tree;
+  out.piece = toMsg(broken.piece);
+  out.stress = broken.stress;
+  out.mass = broken.mass;
+  out.grabs = broken.grabs;
+  return out;
+}
+
 }  // namespace vegetation_sim

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/BranchBreak.h>
 #include <vegetation_sim/BranchForce.h>
 #include <vegetation_sim/BranchGrab.h>
+#include <vegetation_sim/BrokenBranch.h>
 #include <vegetation_sim/ContactForce.h>
 #include <vegetation_sim/ForestBody.h>
 #include <vegetation_sim/PlantContact.h>
 
+#include "forest/physics/forest_physics.h"
 #include "tree/physical/interaction.h"
 #include "vegetation_sim/canopy/contact/fibres.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -20,6 +23,11 @@ BranchGrab toMsg(const forest::Grab& grab);
 /// A push from 0 until its duration. @throws InvalidInput for a duration out of range.
 forest::Push fromMsg(const BranchForce& message);
 BranchForce toMsg(const forest::Push& push);
+
+BrokenBranch toMsg(const forest::BrokenBranch& broken);
+forest::BrokenBranch fromMsg(const BrokenBranch& message);
+/// Left to the caller: the frame of the header.
+BranchBreak toMsg(const forest::Break& broken);
 
 forest::Body fromMsg(const ForestBody& message);
 ForestBody toMsg(const forest::Body& body);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/replicas/leafed_crowns.h"
 
+#include <algorithm>
+
 namespace vegetation_sim {
 namespace {
 
@@ -20,6 +22,14 @@ std::vector<canopy::Twig> twigsOf(const forest::Tree& tree) {
     out.push_back(twig);
   }
   return out;
+}
+
+// Removes the leaves of branches that have come off. The others stay where they were.
+void dropLeaves(const forest::Skeleton& skeleton, std::vector<canopy::CrownLeaf>& leaves) {
+  const auto gone = [&](const canopy::CrownLeaf& leaf) {
+    return skeleton.branches[leaf.twig].broken;
+  };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), gone), leaves.end());
 }
 
 canopy::LeafBox boxOf(const std::vector<canopy::CrownLeaf>& leaves) {
@@ -54,16 +64,24 @@ void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplic
       Crown crown;
       crown.tree = tree;
       crown.kind = rule.kind;
-      crown.rest = twigsOf(trees_.back());
+      crown.broken = brokenOf(forest.broken(), tree);
+      crown.rest = twigsOf(growTree(forest.layout(), tree, forest.terrain()));
       crown.leaves =
           canopy::growCrown(layout.kinds[rule.kind], trees_.back().seed.seed, crown.rest);
+      dropLeaves(trees_.back().skeleton, crown.leaves);
       crown.box = boxOf(crown.leaves);
       crowns_.push_back(std::move(crown));
     }
 }
 
+bool LeafedCrowns::standsAsGrown(const forest::ForestReplica& forest) const {
+  return std::all_of(crowns_.begin(), crowns_.end(), [&](const Crown& crown) {
+    return crown.broken == brokenOf(forest.broken(), crown.tree);
+  });
+}
+
 bool LeafedCrowns::update(const canopy::Layout& layout, const SubscribedForest& forest) {
-  if (forests_ == forest.layouts()) return false;
+  if (forests_ == forest.layouts() && standsAsGrown(forest.replica())) return false;
   forests_ = forest.layouts();
   grow(layout, forest.replica());
   return true;

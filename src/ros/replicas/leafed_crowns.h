@@ -20,11 +20,13 @@ class LeafedCrowns {
     std::vector<canopy::Twig> rest;  ///< of each branch
     std::vector<canopy::CrownLeaf> leaves;
     canopy::LeafBox box;
+    forest::BrokenBranches broken;  ///< what had come off the tree
   };
 
   /// Grows the crowns of a layout. Trees that the forest does not have are left out.
   void grow(const canopy::Layout& layout, const forest::ForestReplica& forest);
-  /// Grows the crowns again if the layout of the forest has changed. Returns true if it has.
+  /// Grows the crowns again if the layout of the forest has changed, or trees of theirs have lost
+  /// branches. Returns true if so.
   bool update(const canopy::Layout& layout, const SubscribedForest& forest);
   void clear();
 
@@ -36,6 +38,8 @@ class LeafedCrowns {
                          Nanoseconds stamp) const;
 
  private:
+  bool standsAsGrown(const forest::ForestReplica& forest) const;
+
   std::vector<Crown> crowns_;
   std::vector<forest::Tree> trees_;
   int forests_{0};  // layouts of the forest when the crowns were grown

@@ -67,12 +67,14 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
                             {bark_texture_.name()}, true) {}
 
 ForestVisual::~ForestVisual() {
+  pieces_.clear();
   tree_batches_.clear();
   node_->getCreator()->destroySceneNode(node_);
 }
 
 void ForestVisual::restart(const forest::ForestReplica& replica, const View& view,
                            const Options& options) {
+  pieces_.clear();
   tree_batches_.clear();
   tree_set_.reset();
   report_ = ForestReport();
@@ -110,6 +112,7 @@ bool ForestVisual::prepare(const View& view, const Options& options) {
 // Replaces the trees that are drawn with those that have grown.
 void ForestVisual::applyDelta() {
   const bool follows = tree_set_ != nullptr;
+  pieces_.clear();  // of another origin
   tree_batches_.clear();
   settled_ = settled_ && follows;
   tree_set_ = std::move(next_);
@@ -130,6 +133,7 @@ void ForestVisual::applyDelta() {
 
 void ForestVisual::repaint() {
   repaint_ = true;
+  pieces_.clear();
   prepared_ = 0;
 }
 
@@ -150,8 +154,10 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
     applyDelta();
   if (!tree_set_) return;
   runFadeClock(wall);
-  chooseLevels(view, options);
+  chooseLevels(replica, view, options);
   move(replica, stamp, view, options);
+  updatePieces(replica);
+  movePieces(replica, stamp, options);
   measure(view, options);
 }
 
@@ -184,8 +190,19 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   return true;
 }
 
+// A tree that has lost branches is drawn without them at once.
+bool ForestVisual::regrow(const forest::ForestReplica& replica, DrawnTree& tree,
+                          const Options& options) {
+  if (!tree.isOutdated(replica)) return false;
+  tree.regrow(replica);
+  if (tree.level() < 0) return false;
+  tree.setLevel(tree.level(), tree_set_->light(), options.look);
+  return true;
+}
+
 // Near batches are drawn first, and are the first to get their level if time is short.
-void ForestVisual::chooseLevels(const View& view, const Options& options) {
+void ForestVisual::chooseLevels(const forest::ForestReplica& replica, const View& view,
+                                const Options& options) {
   const bool bare = report_.triangles == 0 || report_.waiting > tree_batches_.size();
   const auto end = Clock::now() + std::chrono::duration<double>(bare ? FIRST_TIME : LEVEL_TIME);
   std::sort(tree_batches_.begin(), tree_batches_.end(), [&](const auto& a, const auto& b) {
@@ -202,6 +219,7 @@ void ForestVisual::chooseLevels(const View& view, const Options& options) {
     bool changed = false;
     for (DrawnTree* tree : batch->trees()) {
       const int before = tree->fading() ? 1 : 0;
+      changed = regrow(replica, *tree, options) || changed;
       changed = changeLevel(*tree, view, options, Clock::now() < end) || changed;
       report_.fading += (tree->fading() ? 1 : 0) - before;
     }
@@ -233,6 +251,52 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
     }
     if (moved) batch->takePositions();
     if (painted) batch->takePaint();
+  }
+}
+
+// Grows one piece at a time. Those of trees that are not drawn are not drawn either.
+void ForestVisual::updatePieces(const forest::ForestReplica& replica) {
+  const auto is_gone = [&](const Piece& piece) {
+    const auto& broken = brokenOf(replica.broken(), piece.tree->id());
+    return std::none_of(broken.begin(), broken.end(),
+                        [&](const auto& record) { return piece.tree->isPiece(record); });
+  };
+  pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), is_gone), pieces_.end());
+  report_.pieces = pieces_.size();
+  for (const forest::PieceKey& key : piecesOf(replica.broken())) {
+    const auto& broken = brokenOf(replica.broken(), key.tree);
+    const auto is_drawn = [&](const Piece& piece) {
+      return piece.tree->id() == key.tree && piece.tree->isPiece(broken[key.number]);
+    };
+    if (!tree_set_->find(key.tree) || std::any_of(pieces_.begin(), pieces_.end(), is_drawn))
+      continue;
+    Piece piece;
+    piece.tree = std::make_unique<DrawnTree>(
+        replica, key.tree, tree_set_->origin(),
+        std::make_shared<const forest::FallingPiece>(replica.layout(), replica.terrain(), key.tree,
+                                                     broken, key.number));
+    piece.batch = std::make_unique<TreeBatch>(
+        std::vector<DrawnTree*>{piece.tree.get()}, *node_,
+        TreeMaterials{bark_material_.name(), leaf_material_.name(), fading_bark_material_.name(),
+                      fading_leaf_material_.name()});
+    pieces_.push_back(std::move(piece));
+    return;
+  }
+}
+
+// A piece has the level of detail of its tree.
+void ForestVisual::movePieces(const forest::ForestReplica& replica, Nanoseconds stamp,
+                              const Options& options) {
+  const wind::Instant wind = replica.wind().at(stamp);
+  for (Piece& piece : pieces_) {
+    const int level = tree_set_->find(piece.tree->id())->level();
+    if (level < 0) continue;
+    const bool changed = level != piece.tree->level();
+    if (changed) {
+      piece.tree->setLevel(level, tree_set_->light(), options.look);
+      piece.batch->rebuild();
+    }
+    if (piece.tree->move(replica, stamp, wind, options.look, 1.0)) piece.batch->takePositions();
   }
 }
 

@@ -22,6 +22,7 @@ struct ForestReport {
   std::size_t moving{0};            ///< trees with new positions
   std::size_t waiting{0};           ///< trees whose level changes later
   std::size_t fading{0};            ///< trees between two levels
+  std::size_t pieces{0};            ///< that have come off them
   int tree_sets{0};                 ///< number of selections of trees
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
@@ -60,10 +61,13 @@ class ForestVisual {
   bool prepare(const View& view, const Options& options);
   void applyDelta();
   void runFadeClock(double wall);
-  void chooseLevels(const View& view, const Options& options);
+  void chooseLevels(const forest::ForestReplica& replica, const View& view, const Options& options);
+  bool regrow(const forest::ForestReplica& replica, DrawnTree& tree, const Options& options);
   bool changeLevel(DrawnTree& tree, const View& view, const Options& options, bool in_time);
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);
+  void updatePieces(const forest::ForestReplica& replica);
+  void movePieces(const forest::ForestReplica& replica, Nanoseconds stamp, const Options& options);
   void measure(const View& view, const Options& options);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
@@ -72,6 +76,11 @@ class ForestVisual {
   std::unique_ptr<TreeSet> tree_set_, next_;  // drawn; growing
   std::size_t prepared_{0};                   // number of the next trees with a mesh
   std::vector<std::unique_ptr<TreeBatch>> tree_batches_;
+  struct Piece {
+    std::unique_ptr<DrawnTree> tree;
+    std::unique_ptr<TreeBatch> batch;
+  };
+  std::vector<Piece> pieces_;       // what has come off the drawn trees
   Vec3 selected_at_{Vec3::Zero()};  // viewer at the selection
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
@@ -45,10 +46,37 @@ void setFade(float fade, DrawnTree::Shape& shape) {
 DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin)
     : id_(id),
       origin_(origin),
+      broken_(brokenOf(replica.broken(), id)),
       tree_(replica.grow(id)),
       species_(replica.layout().species.at(tree_.seed.species)),
       paint_(species_, tree_.seed.seed),
       poser_(tree_) {}
+
+DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin,
+                     std::shared_ptr<const forest::FallingPiece> piece)
+    : id_(id),
+      origin_(origin),
+      piece_(std::move(piece)),
+      tree_(piece_->tree()),
+      species_(replica.layout().species.at(tree_.seed.species)),
+      paint_(species_, tree_.seed.seed),
+      poser_(tree_) {}
+
+bool DrawnTree::movePiece(Nanoseconds stamp) {
+  const bool falls = stamp < piece_->restsFrom();
+  if (!falls && !moved_) return false;
+  moved_ = falls;
+  narrowPoses(piece_->poseAt(stamp), poses_);
+  skin(forest::Flutter());
+  return true;
+}
+
+void DrawnTree::regrow(const forest::ForestReplica& replica) {
+  broken_ = brokenOf(replica.broken(), id_);
+  tree_ = replica.grow(id_);
+  poser_ = forest::BatchPoser(tree_);
+  painted_by_level_ = false;
+}
 
 void DrawnTree::addTo(forest::LightGrid& light) const {
   const double area = forest::LEAF_COVERAGE * species_.leaf_size * species_.leaf_size;
@@ -113,6 +141,7 @@ void DrawnTree::skin(const forest::Flutter& flutter) {
 bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
                      const wind::Instant& wind, const TreeLook& look, double pixels_per_metre) {
   if (level_ < 0) return false;
+  if (piece_) return movePiece(stamp);
   const forest::Weights weights = replica.weights(id_, stamp);
   forest::Flutter flutter;
   const double swing = species_.flutter * species_.leaf_size * pixels_per_metre;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "forest/falling_piece.h"
 #include "rviz/render/vertex_paint.h"
 #include "tree/mesh/light_grid.h"
 #include "tree/mesh/paint.h"
@@ -27,6 +29,20 @@ class DrawnTree {
  public:
   /// Grows the tree. @param origin origin of all coordinates that it returns, layout's frame [m].
   DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin);
+  /// A piece that has come off tree `id`.
+  DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin,
+            std::shared_ptr<const forest::FallingPiece> piece);
+
+  /// Returns whether the tree has lost branches since it was grown.
+  bool isOutdated(const forest::ForestReplica& replica) const {
+    return !(broken_ == brokenOf(replica.broken(), id_));
+  }
+  /// Returns whether it is the piece of a record.
+  bool isPiece(const forest::BrokenBranch& record) const {
+    return piece_ && piece_->record() == record;
+  }
+  /// Grows the tree again; setLevel() has to follow.
+  void regrow(const forest::ForestReplica& replica);
 
   std::uint32_t id() const { return id_; }
   const Vec3& origin() const { return origin_; }
@@ -70,6 +86,7 @@ class DrawnTree {
   const std::vector<Shape>& shapes() const { return shapes_; }
 
  private:
+  bool movePiece(Nanoseconds stamp);
   Shape makeShape(int level, const TreeLook& look) const;
   int depths() const;
   void skin(const forest::Flutter& flutter);
@@ -79,6 +96,8 @@ class DrawnTree {
 
   std::uint32_t id_;
   Vec3 origin_;
+  forest::BrokenBranches broken_;
+  std::shared_ptr<const forest::FallingPiece> piece_;  // null: a tree
   forest::Tree tree_;
   forest::Species species_;
   forest::TreePaint paint_;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr Range ANYWHERE{-1e7, 1e7};
 constexpr int MOST_TILES = 65536;
+constexpr double OF_THE_FILE = -1.0;  // a strength that is not given
 
 class LayoutReader {
  public:
@@ -47,12 +48,15 @@ class LayoutReader {
       entry.text("file", file);
       double stage = GROWN;
       entry.number("stage", stage, "", {SEEDLING, GROWN});
+      double strength = OF_THE_FILE;
+      entry.number("strength", strength, "Pa", {0.0, 1e12});
       entry.finish();
       if (file.empty()) file = "../species/" + name + ".yaml";
       const auto path = (std::filesystem::path(folder_) / file).lexically_normal();
       try {
         Species species = applyStage(loadSpecies(path.string()), stage);
         if (!name.empty()) species.name = name;
+        if (strength != OF_THE_FILE) species.strength = strength;
         number_[species.name] = static_cast<std::uint16_t>(out_.species.size());
         out_.species.push_back(std::move(species));
       } catch (const InvalidInput& error) {

@@ -54,6 +54,10 @@ void describeHabit(FieldVisitor& v, Species& s) {
   v.number("turn", s.turn, "rad", {0.0, PI});
 }
 
+void describeStrength(FieldVisitor& v, Species& s) {
+  v.number("strength", s.strength, "Pa", {0.0, 1e12});
+}
+
 void describe(FieldVisitor& v, Design& d) {
   v.number("size", d.size, "", {0.2, 3.0});
   v.number("children", d.children, "", {0.2, 3.0});
@@ -97,6 +101,7 @@ void check(Species species, Faults& faults) {
   FieldChecker checker(context, faults);
   describe(checker, species);
   describeHabit(checker, species);
+  describeStrength(checker, species);
   for (std::size_t i = 0; i < species.limbs.size(); ++i) {
     LimbRule& rule = species.limbs[i];
     const std::string where = context + "limbs[" + std::to_string(i) + "]: ";
@@ -159,6 +164,7 @@ Species readSpecies(YamlSection section) {
   section.text("name", species.name);
   describe(section, species);
   describeHabit(section, species);
+  describeStrength(section, species);
   std::vector<YamlSection> limbs = section.sections("limbs");
   if (!limbs.empty()) species.limbs.clear();
   for (YamlSection& limb : limbs) {
@@ -178,6 +184,7 @@ std::string writeSpecies(const Species& species) {
   YamlFieldWriter writer(out);
   describe(writer, copy);
   describeHabit(writer, copy);
+  describeStrength(writer, copy);
   out << YAML::Key << "limbs" << YAML::Value << YAML::BeginSeq;
   for (LimbRule& rule : copy.limbs) {
     out << YAML::Flow << YAML::BeginMap;
@@ -212,8 +219,10 @@ std::uint64_t hash(const Species& species) {
   out.add(copy.name);
   describe(hasher, copy);
   for (LimbRule& rule : copy.limbs) describe(hasher, rule);
-  // A species of the usual habit keeps the hash that it had before there were others.
+  // A species of the usual habit, or that never breaks, keeps the hash that it had before there
+  // were others.
   if (copy.turn != Species().turn) describeHabit(hasher, copy);
+  if (copy.strength > 0.0) describeStrength(hasher, copy);
   return out.value();
 }
 

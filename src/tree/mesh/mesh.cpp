@@ -34,6 +34,7 @@ class MeshBuilder {
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
       if (branch.depth >= detail_.depths) break;
+      if (branch.broken) continue;
       const bool first =
           branch.parent < 0 ||
           skeleton_.branches[static_cast<std::size_t>(branch.parent)].next != static_cast<int>(i);

@@ -4,19 +4,22 @@
 
 namespace vegetation_sim::forest {
 
-Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law) {
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law,
+              const BrokenBranches& broken) {
   Tree out;
   out.seed = seed;
   out.skeleton = grow(seed, species);
+  breakOff(broken, out.skeleton);
   out.response = windResponse(out.skeleton, species, law);
   out.joint_model = law.joint_model;
   return out;
 }
 
-Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain) {
+Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain,
+              const BrokenBranches& broken) {
   const TreeSeed seed = seedOf(layout, id);
   const Species& species = layout.species.at(seed.species);
-  Tree out = growTree(seed, species, layout.motion);
+  Tree out = growTree(seed, species, layout.motion, broken);
   out.drag = layout.motion.drag;
   out.reference_speed = species.reference_speed;
   out.foot = footOf(out.seed, terrain);

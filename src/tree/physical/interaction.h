@@ -39,6 +39,18 @@ struct Grab {
   Vec3 direction{Vec3::UnitZ()};
 };
 
+/// A grab that is over.
+struct EndedGrab : Grab {
+  enum Reason : int { LEASE_EXPIRED = 0, BRANCH_BROKEN = 1 };
+  Reason reason{LEASE_EXPIRED};
+};
+
+/// A request to cut a branch off at its joint, with all that it carries.
+struct BranchCut {
+  std::uint32_t tree{0};
+  int branch{1};
+};
+
 /// The direction in which a jaw keeps the branch, in world axes.
 inline Vec3 jawDirection(const Grab& grab) {
   return rotate(grab.holder.orientation, grab.direction);
@@ -90,6 +102,7 @@ struct PhysicsFigures {
                             ///< integrator was beyond its bound
   std::size_t coarse{0};    ///< tree steps whose contacts needed more bisections than allowed
   std::size_t skipped{0};   ///< gaps in time that were not stepped through
+  std::size_t broken{0};    ///< branches that have come off
 };
 
 }  // namespace vegetation_sim::forest

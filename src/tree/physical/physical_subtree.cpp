@@ -59,6 +59,24 @@ void PhysicalSubtree::setMaterial(Material material) {
   rebuild(all);
 }
 
+void PhysicalSubtree::breakOff(std::shared_ptr<const Tree> tree, Material material) {
+  tree_ = std::move(tree);
+  wood_ = woodOf(tree_->skeleton, species_, material);
+  std::vector<Joined> left;
+  const physics::ChainState& state = state_.get();
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (!tree_->skeleton.branches[index(joints_[i].branch)].broken)
+      left.push_back({joints_[i], state.q[i], state.rate[i]});
+  rebuild(left);
+}
+
+double PhysicalSubtree::stressOf(std::size_t link) const {
+  const physics::Vec2& q = state_.get().q[link];
+  const double torque = links_[link].stiffness * std::sqrt(q.x() * q.x() + q.y() * q.y());
+  const double radius = tree_->skeleton.branches[index(branches_[link])].base_radius;
+  return 4.0 * torque / (PI * radius * radius * radius);
+}
+
 // Rebuilds all arrays for these joints, sorted by branch, without spare capacity.
 void PhysicalSubtree::rebuild(const std::vector<Joined>& joints) {
   const std::size_t n = joints.size();

@@ -95,6 +95,11 @@ class PhysicalSubtree {
   /// Changes the duration of blends; running ones continue from their progress.
   void stretchBlends(Nanoseconds stamp, double from, double to);
   void setMaterial(Material material);
+  /// Continues with the same tree after it has lost branches, whose joints end.
+  void breakOff(std::shared_ptr<const Tree> tree, Material material);
+  /// Returns the largest bending stress at the joint of a physical branch [Pa]: that of a solid bar
+  /// under the elastic torque k q, sigma = 4 k q / (pi r^3).
+  double stressOf(std::size_t link) const;
 
   /// Takes one step.
   void step(const TreeWind& air, const SubtreeLoads& loads, const PhysicsSettings& settings,

@@ -65,6 +65,8 @@ REQUESTS = {
         (srv.ApplyForceRequest(nearest=True, duration=0.5, point=STEM,
                                force=Vector3Stamped(vector=Vector3(5.0, 0.0, 0.0))),
          'tree', 'branch', 'along', 'point.header', 'force.header')],
+    '/forest_animator/cut_branch': [
+        (srv.CutBranchRequest(tree=1, branch=5), 'point')],
     '/forest_animator/find_trees': [
         (srv.FindTreesRequest(centre=PLACE, radius=20.0, limit=5),
          'centre.header', 'offset')],

@@ -69,5 +69,47 @@ TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
   EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
 }
 
+// A limb that is cut falls: the tree is drawn without it, and the piece lower and lower, until it
+// lies.
+TEST(DrawnTree, APieceFallsBesideItsTree) {
+  RegisteredViewer viewer;
+  const forest::LightGrid light(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0);
+  DrawnTree tree(viewer.replica, 0, Vec3::Zero());
+  tree.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  const std::size_t whole = tree.triangleCount();
+  EXPECT_FALSE(tree.isOutdated(viewer.replica));
+  viewer.rig.forest.cut({0, viewer.rig.tree.skeleton.depth_end[0]});
+  viewer.run(1.0 / forest::TICK_RATE);
+  EXPECT_TRUE(tree.isOutdated(viewer.replica));
+  tree.regrow(viewer.replica);
+  tree.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  EXPECT_FALSE(tree.isOutdated(viewer.replica));
+  EXPECT_LT(tree.triangleCount(), whole);
+
+  const auto& broken = brokenOf(viewer.replica.broken(), 0);
+  ASSERT_EQ(broken.size(), 1u);
+  const auto falling = std::make_shared<const forest::FallingPiece>(
+      viewer.replica.layout(), viewer.replica.terrain(), 0, broken, 0);
+  DrawnTree piece(viewer.replica, 0, Vec3::Zero(), falling);
+  EXPECT_TRUE(piece.isPiece(broken.front()));
+  piece.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  EXPECT_EQ(tree.triangleCount() + piece.triangleCount(), whole);
+  const auto lowest = [&] {
+    double out = 1e9;
+    const std::vector<float>& at = piece.shapes().front().bark.positions;
+    for (std::size_t i = 2; i < at.size(); i += 3) out = std::min(out, static_cast<double>(at[i]));
+    return out;
+  };
+  ASSERT_TRUE(viewer.move(piece));
+  const double start = lowest();
+  viewer.run(0.2);
+  ASSERT_TRUE(viewer.move(piece));
+  EXPECT_NEAR(lowest(), start - 0.5 * 9.81 * 0.04, 0.02);
+  viewer.run(3.0);
+  ASSERT_TRUE(viewer.move(piece));
+  EXPECT_NEAR(lowest(), 0.0, 0.05);  // wood has a thickness around its axis
+  EXPECT_FALSE(viewer.move(piece));
+}
+
 }  // namespace
 }  // namespace vegetation_sim::view

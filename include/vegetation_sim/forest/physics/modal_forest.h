@@ -25,6 +25,7 @@ struct ModalContext {
   const Layout& layout;
   const terrain::HeightMap& terrain;
   const wind::Field& wind;
+  const BrokenTrees* broken{nullptr};  ///< what has come off the trees; null: nothing
 };
 
 /// The modal states of the trees of a forest. Forest and replica step them with the same code, so
@@ -63,6 +64,8 @@ class ModalForest {
   /// Removes the trees whose modes have lost all weight.
   void removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition);
   void retain(const std::set<std::uint32_t>& trees);
+  /// Removes a tree, because it has lost branches and with them its modes.
+  void removeTree(std::uint32_t tree);
   void clear();
   /// Returns a tree at rest with so many modes. @throws InvalidInput if it has another number.
   using ModesOf = std::function<ModalTreeState(std::uint32_t tree, std::size_t modes)>;

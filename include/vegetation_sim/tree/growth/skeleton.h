@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
+#include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/core/math/vectors.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
@@ -23,6 +25,7 @@ struct Branch {
   double tip_radius{0.0};   ///< [m]
   double roll{0.0};      ///< turn about z that removes the twist along the limb, for meshes [rad]
   int leaves{0};         ///< leaf clusters on it
+  bool broken{false};    ///< has come off the tree, see breakOff()
   std::uint64_t key{0};  ///< key of its random numbers
   Quat turn;             ///< Rz(theta) Ry(phi): its joint at rest, in its parent's frame
   Pose rest;             ///< at rest, in the tree's frame: origin at the foot, axes as the world's
@@ -54,6 +57,35 @@ Skeleton grow(const TreeSeed& seed, const Species& species);
 /// Returns the factor on the height and trunk radius of the species with which grow() makes the
 /// trunk of a tree.
 double trunkScale(const TreeSeed& seed, const Species& species);
+
+/// A branch that has come off its tree at its joint, with all that it carried. Its first motion is
+/// that of its joint at the tick at which it came off.
+struct BrokenBranch {
+  int branch{1};                ///< never 0, the foot of the trunk
+  Nanoseconds stamp{0};         ///< of the first tick without it
+  bool cut{false};              ///< by a request; false: it broke
+  Pose pose;                    ///< of its joint, world
+  Vec3 velocity{Vec3::Zero()};  ///< of its joint, world [m/s]
+  Vec3 spin{Vec3::Zero()};      ///< world [rad/s]
+};
+bool operator==(const BrokenBranch& a, const BrokenBranch& b);
+
+/// What has come off one tree, earliest first. What a piece had lost before is not part of it.
+using BrokenBranches = std::vector<BrokenBranch>;
+/// By tree; trees without are not listed.
+using BrokenTrees = std::map<std::uint32_t, BrokenBranches>;
+/// Returns what has come off a tree; empty for a tree that is not listed.
+const BrokenBranches& brokenOf(const BrokenTrees& trees, std::uint32_t tree);
+
+/// Takes broken branches off a skeleton. Indices stay: a branch that is gone keeps its joint and is
+/// shrunk to a thousandth without leaves, so that nothing sees it and masses stay above 0. Height
+/// and reach stay as they were.
+/// @throws InvalidInput for a branch that the tree does not have, and for its foot.
+void breakOff(const BrokenBranches& broken, Skeleton& skeleton);
+
+/// Leaves of a skeleton only a branch with what it carries; all else counts as broken, without
+/// leaves, but keeps size and place.
+void keepPiece(int branch, Skeleton& skeleton);
 
 /// Returns Rz(theta) Ry(phi), the rotation of a child in the frame of its parent.
 Quat restRotation(double theta, double phi);

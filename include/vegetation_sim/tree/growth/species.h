@@ -45,7 +45,8 @@ struct Species {
   Vec3 leaf_colour_young{Vec3(0.45, 0.6, 0.2)};  ///< outer leaves
   Vec3 bark_colour{Vec3(0.32, 0.25, 0.18)};
   Vec3 twig_colour{Vec3(0.3, 0.24, 0.15)};
-  double turn{PI};  ///< largest turn of the trunk off the yaw of the tree [rad]
+  double turn{PI};       ///< largest turn of the trunk off the yaw of the tree [rad]
+  double strength{0.0};  ///< bending stress at which physical branches break; 0: never [Pa]
   std::vector<LimbRule> limbs{LimbRule{}};  ///< by recursion depth, trunk first
 
   int depths() const { return static_cast<int>(limbs.size()); }
@@ -60,6 +61,7 @@ struct Design {
 void describe(FieldVisitor& visitor, Species& species);
 /// Visits the fields that are not part of describe(), of which a usual species has the default.
 void describeHabit(FieldVisitor& visitor, Species& species);
+void describeStrength(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
 
 /// Returns the largest angle [rad] between a limb and its parent for their ratio of diameters; it

@@ -22,10 +22,13 @@ struct Tree {
   Vec3 foot{Vec3::Zero()};      ///< world [m]
 };
 
-/// Grows a tree of a layout. A pure function: the same layout and id give the same bits.
-Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain);
+/// Grows a tree of a layout without what has come off it. A pure function: the same arguments give
+/// the same bits. @throws InvalidInput for broken branches that the tree does not have.
+Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain,
+              const BrokenBranches& broken = {});
 /// Grows a tree at the origin, with linear drag.
-Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law);
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law,
+              const BrokenBranches& broken = {});
 
 /// Returns the deviation of each joint (equations 1 and 2), independent of all other branches and
 /// of earlier steps (S1-19). `wind` is relative to the foot.

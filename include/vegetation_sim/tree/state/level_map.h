@@ -57,6 +57,7 @@ struct StateUpdate {
     std::vector<PromotedBranch> promoted{};  ///< sorted by branch; empty: none
     /// Modal state, in key frames and at the start of modes; empty: replicas step it.
     physics::ModalState modal{};
+    BrokenBranches broken{};  ///< everything that has come off the tree
   };
   std::vector<Entry> trees;
 };

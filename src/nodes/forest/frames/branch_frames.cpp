@@ -14,7 +14,7 @@ namespace vegetation_sim {
 const PosedTrees::Posed& PosedTrees::of(std::uint32_t tree) {
   const auto known = posed_.find(tree);
   if (known != posed_.end()) return known->second;
-  const auto grown = cache_.get(forest_.layout(), forest_.terrain(), tree);
+  const auto grown = cache_.get(forest_, tree);
   return posed_[tree] = {grown, posesOf(forest_, grown->tree, tree, stamp_)};
 }
 

@@ -16,10 +16,10 @@ from geometry_msgs.msg import Point, PointStamped, TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, WindPrimitive
-from vegetation_sim.srv import ApplyForce, Grab, MoveGrab, Release, SetWindPrimitive
+from vegetation_sim.srv import ApplyForce, CutBranch, Grab, MoveGrab, Release, SetWindPrimitive
 
-from forest_rig import RATE, Animator, SensorClient, TickClock, scene, start_animator, stop, time_of
-from replaying import tick_after
+from forest_rig import RATE, Animator, SensorClient, TickClock, scene, stop, time_of
+from replaying import replay
 from waiting import wait_for
 from watched_node import listens, publisher, wait_for_readers
 
@@ -27,9 +27,6 @@ SECONDS = 60
 # [s] recorded but not compared, because a recorder that is stopped loses messages in transit
 TAIL = 5
 TOPICS = ['/clock', '/wind', '/forest/sensors', '/forest/layout', '/forest/state', '/forest/events']
-SPEED = 10  # rate of the replay relative to wall time
-# [s] of simulated time by which the replay runs behind its events; one second of wall time
-DELAY = 10.0
 
 
 class ForestReplay(unittest.TestCase):
@@ -73,6 +70,8 @@ class ForestReplay(unittest.TestCase):
         if second == 10:
             force = call('apply_force', ApplyForce, tree=12, branch=7, duration=0.4)
             self.assertEqual(force.branch, 7)
+        if second == 12:
+            self.assertEqual(call('cut_branch', CutBranch, tree=14, branch=6).branch, 6)
         if 44 <= second < 48:
             if second == 44:
                 self.hand = self.forest.tree(13).transforms.poses[8].position
@@ -110,7 +109,9 @@ class ForestReplay(unittest.TestCase):
         forest.layout.wait(lambda all: len(all) == 2, 'the other layout')
         kinds = {e.kind for e in forest.events.messages}
         self.assertLessEqual({ForestEvent.GRAB, ForestEvent.MOVE, ForestEvent.RELEASE,
-                              ForestEvent.FORCE}, kinds)
+                              ForestEvent.FORCE, ForestEvent.CUT}, kinds)
+        cut = [t.tree for m in forest.state.messages for t in m.trees if t.broken]
+        self.assertGreater(cut.count(14), 5)
         held = [m.header.stamp.to_sec() for m in forest.state.messages
                 if any(t.tree == 13 and t.promoted for t in m.trees)]
         self.assertGreater(len(held), RATE)
@@ -125,34 +126,11 @@ class ForestReplay(unittest.TestCase):
         forest.close()
         return states, clock
 
-    def replay(self, clock):
-        """Runs another node that receives only the inputs in the bag."""
-        process = start_animator('/replay/forest_animator', {}, scenario=scene('forest'),
-                                 replay=True, replay_delay=DELAY)
-        try:
-            forest = Animator('/replay/forest_animator', '/replay/')
-            forest.expect_replay()
-            forest.wait_until_up()
-            subprocess.run(['rosbag', 'play', '-q', '--clock', '-r', str(SPEED), '-d', '1', self.bag,
-                            '--topics', '/wind', '/forest/events', '/wind:=/replay/wind',
-                            '/forest/events:=/replay/forest/events'], check=True, timeout=120,
-                           stdout=subprocess.DEVNULL)
-            # The clock of the bag ends before the delay has passed, so the test continues it.
-            end = tick_after(self.bag, ['/wind', '/forest/events'])
-            for tick in range(1, int((DELAY + 1) * RATE)):
-                clock.show(end + tick)
-            forest.state.wait(lambda all: all and all[-1].header.stamp >= self.last, 'the end')
-            forest.close()
-            return forest.states()
-        finally:
-            stop(process)
-
     def test_a_bag_replays_the_run(self):
         live, clock = self.live_run()
-        self.last = max(live)
         print('bag of %d s: %.2f MB' % (SECONDS, os.path.getsize(self.bag) / 1e6))
         rosnode.kill_nodes(['/wind_broadcaster', '/forest_animator'])
-        again = self.replay(clock)
+        again = replay(self.bag, clock, scene('forest'), max(live))
         self.assertEqual([s for s in sorted(live) if again.get(s) != live[s]], [])
 
 

@@ -1,0 +1,61 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vegetation_sim/tree/motion/pose.h"
+
+namespace vegetation_sim::forest {
+
+/// What has come off a tree, as displays and sensors show it: a rigid piece that falls freely, with
+/// the velocity and the angular velocity that its joint had, until a tip meets the ground; then it
+/// turns about its centre of mass until that lies level with its joint, and rests. A function of
+/// its record and the stamp alone, so that all replicas and late joiners have the same bits. It
+/// touches nothing but the ground.
+class FallingPiece {
+ public:
+  /// @param number of the piece in `broken`, which has all that has come off the tree.
+  /// @throws InvalidInput for broken branches that the tree does not have.
+  FallingPiece(const Layout& layout, const terrain::HeightMap& terrain, std::uint32_t tree,
+               const BrokenBranches& broken, std::size_t number);
+
+  /// The tree in which all but the branches of the piece has come off.
+  const Tree& tree() const { return tree_; }
+  const BrokenBranch& record() const { return record_; }
+  /// Stamps at which it meets the ground, and from which on it rests.
+  Nanoseconds landsAt() const { return record_.stamp + fromSeconds(fall_time_); }
+  Nanoseconds restsFrom() const;
+  /// Returns the pose of every branch of tree() at a stamp, in the tree's frame. Before it came
+  /// off, it is where it did.
+  std::vector<Pose> poseAt(Nanoseconds stamp) const;
+
+ private:
+  Pose fallenAt(double time) const;
+  Pose turnedBy(double share) const;
+  Pose jointAt(double time) const;
+  double clearance(const terrain::HeightMap& terrain, const Pose& joint) const;
+  void land(const terrain::HeightMap& terrain);
+
+  BrokenBranch record_;
+  Tree tree_;
+  std::vector<Vec3> points_;       // ends of its wood, in the frame of its joint [m]
+  Vec3 centre_{Vec3::Zero()};      // of mass, in the frame of its joint [m]
+  double fall_time_{0.0};          // [s]
+  Pose landed_;                    // joint, world
+  Vec3 turn_axis_{Vec3::UnitX()};  // of the turn on the ground, world, unit
+  double turn_angle_{0.0};         // [rad]
+  std::vector<double> heights_;    // of the centre of mass by share of the turn, world [m]
+};
+
+/// A piece of a forest that has come off, by tree and its number there.
+struct PieceKey {
+  std::uint32_t tree{0};
+  std::size_t number{0};
+};
+/// Returns all pieces in the order in which they came off, of equal stamps in that of the trees:
+/// the place of a piece in it does not change.
+std::vector<PieceKey> piecesOf(const BrokenTrees& trees);
+
+}  // namespace vegetation_sim::forest

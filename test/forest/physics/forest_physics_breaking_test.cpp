@@ -1,0 +1,404 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Branches that are cut or break.
+#include <gtest/gtest.h>
+
+#include "core/error_text.h"
+#include "forest/nearest.h"
+#include "forest/pick.h"
+#include "scenes/forest/modal_forest_scene.h"
+#include "tree/mesh/mesh.h"
+
+namespace vegetation_sim::forest {
+namespace {
+
+constexpr double STRENGTH = 5e7;  // [Pa]
+
+// Returns a copy of the tree as it stands in the forest now.
+Tree standing(const Forest& forest) {
+  return growTree(forest.layout(), 0, forest.terrain(), brokenOf(forest.broken(), 0));
+}
+
+std::vector<int> carriedBy(const Skeleton& skeleton, int branch) {
+  std::vector<int> out;
+  std::vector<char> in(skeleton.branches.size(), 0);
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const int parent = skeleton.branches[i].parent;
+    in[i] = static_cast<int>(i) == branch || (parent >= 0 && in[static_cast<std::size_t>(parent)]);
+    if (in[i]) out.push_back(static_cast<int>(i));
+  }
+  return out;
+}
+
+/// One trunk of equal segments and constant radius, which stands on a foot that cannot break: a
+/// cantilever from the end of the foot on.
+struct Cantilever {
+  static constexpr int SEGMENTS = 16;
+  PhysicsRig rig;
+  double length, radius;
+
+  static Layout layout(double slenderness, double strength) {
+    Layout out = gridLayout(1, 12.0);
+    Species species;
+    species.name = "pole";
+    species.trunk_radius = 0.02;
+    species.twig_radius = 0.001;
+    species.height = slenderness * species.trunk_radius * SEGMENTS / (SEGMENTS - 1.0);
+    species.height_variation = species.lean = species.noise = 0.0;
+    species.slenderness = 5000.0;
+    species.strength = strength;
+    species.drag_coefficient = 0.0;
+    LimbRule trunk;
+    trunk.segments = SEGMENTS;
+    trunk.taper = 1.0;
+    trunk.wander = 0.0;
+    species.limbs = {trunk};
+    out.species = {species};
+    for (TreeSeed& seed : out.trees) seed.species = 0;
+    return out;
+  }
+  explicit Cantilever(double slenderness, double strength = STRENGTH, int threads = 1)
+      : rig(layout(slenderness, strength)) {
+    rig.forest.setThreads(threads);
+    radius = rig.branches()[1].base_radius;
+    length = 0.0;
+    for (std::size_t i = 1; i < rig.branches().size(); ++i) length += rig.branches()[i].length;
+  }
+
+  // Pulls the tip sideways, slowly, until something breaks. Returns the last force before [N], as
+  // far as it acts across the foot.
+  double pullUntilItBreaks() {
+    Grab grab = rig.grabOf(SEGMENTS - 1);
+    grab.stiffness = 1e5;
+    grab.damping = 500.0;
+    grab.force_limit = 1e5;
+    const Vec3 start = grab.target;
+    const std::uint32_t id = rig.forest.addGrab(grab);
+    double force = 0.0;
+    for (int i = 0; i < 120 * TICK_RATE && rig.forest.breaks().empty(); ++i) {
+      for (const Reaction& reaction : rig.forest.reactions())
+        if (reaction.grab == id) force = std::fabs(reaction.force.x());
+      if (rig.forest.grabs().count(id)) {
+        const double height = rig.tip(SEGMENTS - 1).z();  // so that the force stays across
+        const double way = 0.01 * length * i / TICK_RATE;
+        rig.forest.moveGrab(id, Vec3(start.x() + way, start.y(), height));
+      }
+      rig.advance();
+    }
+    return force;
+  }
+};
+
+// Euler and Bernoulli: a bar that is fixed at one end and pulled at the other breaks at its foot,
+// when F L = sigma pi r^3 / 4. Tolerance: 5 %, as issue 24 asks; the measured error is the
+// shortening of the lever by the deflection, which grows with the slenderness.
+TEST(Breaking, CantileverBreaksAtTheForceOfBeamTheory) {
+  for (const double slenderness : {20.0, 40.0, 60.0, 90.0}) {
+    Cantilever beam(slenderness);
+    const double r = beam.radius;
+    const double theory = STRENGTH * PI * r * r * r / (4.0 * beam.length);
+    const double force = beam.pullUntilItBreaks();
+    std::printf("L/r = %.0f: breaks at %.2f N, theory %.2f N, %+.2f %%\n", slenderness, force,
+                theory, 100.0 * (force / theory - 1.0));
+    ASSERT_EQ(beam.rig.forest.breaks().size(), 1u) << slenderness;
+    const Break& broken = beam.rig.forest.breaks().front();
+    EXPECT_EQ(broken.piece.branch, 1);
+    EXPECT_FALSE(broken.piece.cut);
+    EXPECT_GT(broken.stress, STRENGTH);
+    EXPECT_LT(broken.stress, 1.02 * STRENGTH);
+    EXPECT_NEAR(force / theory, 1.0, 0.05) << slenderness;
+  }
+}
+
+TEST(Breaking, WoodWithoutAStrengthNeverBreaks) {
+  Cantilever beam(40.0, 0.0);
+  Grab grab = beam.rig.grabOf(Cantilever::SEGMENTS - 1);
+  grab.stiffness = 1e5;
+  grab.force_limit = 1e5;
+  grab.target += Vec3(0.8 * beam.length, 0.0, -0.5 * beam.length);
+  beam.rig.forest.addGrab(grab);
+  beam.rig.run(1.0);
+  EXPECT_TRUE(beam.rig.forest.broken().empty());
+  EXPECT_EQ(beam.rig.forest.grabs().size(), 1u);
+}
+
+// A grab reports its force until the tick of the break, and then ends with the reason.
+TEST(Breaking, GrabOfABranchThatBreaksEndsWithItsForceAndTheReason) {
+  Cantilever beam(40.0);
+  ASSERT_GT(beam.pullUntilItBreaks(), 0.0);
+  const Forest& forest = beam.rig.forest;
+  ASSERT_EQ(forest.breaks().size(), 1u);
+  EXPECT_EQ(forest.breaks().front().grabs, std::vector<std::uint32_t>{1});
+  ASSERT_EQ(forest.ended().size(), 1u);
+  EXPECT_EQ(forest.ended().front().id, 1u);
+  EXPECT_EQ(forest.ended().front().reason, EndedGrab::BRANCH_BROKEN);
+  EXPECT_TRUE(forest.grabs().empty());
+  ASSERT_FALSE(forest.reactions().empty());
+  EXPECT_GT(length(forest.reactions().front().force), 1.0);
+  EXPECT_GT(forest.breaks().front().mass, 0.0);
+}
+
+// The same break, bit by bit, with any number of threads and from a snapshot taken before it.
+TEST(Breaking, BreaksAreEqualWithThreadsAndFromASnapshot) {
+  Cantilever one(40.0), four(40.0, STRENGTH, 4);
+  one.pullUntilItBreaks();
+  four.pullUntilItBreaks();
+  ASSERT_FALSE(one.rig.forest.broken().empty());
+  EXPECT_EQ(one.rig.forest.hash(), four.rig.forest.hash());
+  EXPECT_TRUE(one.rig.forest.broken() == four.rig.forest.broken());
+  Forest& other = four.rig.forest;
+  other.reset();
+  other.restore(other.readArchived(one.rig.forest.archived()));
+  EXPECT_EQ(one.rig.forest.hash(), other.hash());
+  for (int i = 0; i < TICK_RATE; ++i) {
+    one.rig.advance();
+    other.advance(one.rig.now());
+  }
+  EXPECT_EQ(one.rig.forest.hash(), other.hash());
+}
+
+// Cut a limb of an oak: with it goes what it carries, for whatever looks at the tree.
+TEST(Cutting, TakesOffTheBranchWithAllThatItCarries) {
+  PhysicsRig rig;
+  const int limb = rig.tree.skeleton.depth_end[0];
+  const std::vector<int> gone = carriedBy(rig.tree.skeleton, limb);
+  ASSERT_GT(gone.size(), 3u);
+  const std::uint64_t before = rig.forest.hash();
+  rig.forest.cut({0, limb});
+  EXPECT_TRUE(rig.forest.broken().empty()) << "before the tick";
+  EXPECT_NE(rig.forest.hash(), before);
+  rig.advance();
+  ASSERT_EQ(rig.forest.breaks().size(), 1u);
+  const Break& cut = rig.forest.breaks().front();
+  EXPECT_TRUE(cut.piece.cut);
+  EXPECT_EQ(cut.piece.branch, limb);
+  EXPECT_EQ(cut.piece.stamp, rig.now());
+  const Species& oak = rig.forest.layout().species[0];
+  EXPECT_NEAR(cut.mass, woodOf(rig.tree.skeleton, oak, Material::BEAM).subtree[limb].mass, 1e-9);
+  EXPECT_NEAR(length(cut.piece.pose.position - rig.tree.foot - rig.branches()[limb].rest.position),
+              0.0, 1e-6);
+
+  const Tree left = standing(rig.forest);
+  std::vector<int> broken;
+  for (std::size_t i = 0; i < left.skeleton.branches.size(); ++i)
+    if (left.skeleton.branches[i].broken) broken.push_back(static_cast<int>(i));
+  EXPECT_EQ(broken, gone);
+  const TreeMesh mesh = buildMesh(left.skeleton, oak, meshDetail(GEOMETRY_LEVELS - 1));
+  const TreeMesh whole = buildMesh(rig.tree.skeleton, oak, meshDetail(GEOMETRY_LEVELS - 1));
+  EXPECT_LT(mesh.bark.size(), whole.bark.size());
+  EXPECT_LT(mesh.leaves.size(), whole.leaves.size());
+  for (const BarkVertex& vertex : mesh.bark)
+    EXPECT_FALSE(left.skeleton.branches[vertex.branch].broken);
+  for (const LeafCard& leaf : mesh.leaves) EXPECT_FALSE(left.skeleton.branches[leaf.branch].broken);
+
+  // Neither a ray nor a search near its middle finds it.
+  const Branch& b = rig.branches()[limb];
+  const Vec3 middle = rig.tree.foot + b.rest.position + 0.5 * b.length * axisZ(b.rest.orientation);
+  const auto posed = [&](const Tree& tree) {
+    return PosedTree{std::make_shared<const Tree>(tree), rig.forest.pose(tree, 0, rig.now())};
+  };
+  const auto nearest = [&](const Tree& tree) {
+    return nearestBranch(rig.forest.layout(), rig.forest.terrain(), middle, 0.01,
+                         [&](std::uint32_t) { return posed(tree); });
+  };
+  ASSERT_TRUE(nearest(rig.tree));
+  EXPECT_EQ(nearest(rig.tree)->at.branch, limb);
+  EXPECT_FALSE(nearest(left));
+  const Ray ray{middle + Vec3(0.0, 0.0, 0.3), Vec3(0.0, 0.0, -1.0), 0.0};
+  const auto hit = pickBranch(rig.tree, rig.forest.pose(rig.tree, 0, rig.now()), ray);
+  ASSERT_TRUE(hit);
+  const auto other = pickBranch(left, rig.forest.pose(left, 0, rig.now()), ray);
+  EXPECT_TRUE(!other || !left.skeleton.branches[other->branch].broken);
+}
+
+// A body where the limb was touches nothing, and what is left bends less in the wind.
+TEST(Cutting, WhatIsGoneBearsNoWindAndTouchesNothing) {
+  PhysicsRig rig;
+  const int limb = rig.tree.skeleton.depth_end[0];
+  const Branch& b = rig.branches()[limb];
+  const int top = rig.tree.skeleton.depth_end[0] - 1;
+  rig.forest.setWind(wind::Field({makeBreeze(1, Vec3(6.0, 0.0, 0.0))}));
+  rig.advance();
+  const auto bend = [&] {
+    return length(rig.tip(top) - rig.tree.foot -
+                  tipOf(rig.branches()[top], rig.branches()[top].rest));
+  };
+  const double with = bend();
+  rig.forest.cut({0, limb});
+  rig.advance();
+  rig.tree = standing(rig.forest);
+  EXPECT_GT(bend(), 0.0);
+  EXPECT_LT(bend(), 0.999 * with);
+  Body ball;
+  ball.id = "ball";
+  ball.shape = Shape::SPHERE;
+  ball.size = Vec3(0.05, 0.0, 0.0);
+  ball.pose.position = rig.tree.foot + tipOf(b, b.rest);
+  ball.stamp = rig.now();
+  rig.forest.setBody(ball);
+  rig.run(0.5);
+  for (const Reaction& reaction : rig.forest.reactions())
+    EXPECT_FALSE(rig.tree.skeleton.branches[reaction.at.branch].broken);
+}
+
+TEST(Cutting, GrabsAndPushesOfThePieceEnd) {
+  PhysicsRig rig;
+  const int limb = rig.tree.skeleton.depth_end[0];
+  const int carried = carriedBy(rig.tree.skeleton, limb).back();
+  const std::uint32_t there = rig.forest.addGrab(rig.grabOf(carried));
+  const std::uint32_t elsewhere = rig.forest.addGrab(rig.grabOf(limb + 1));
+  rig.touch(carried, 5.0);
+  rig.run(0.2);
+  rig.forest.cut({0, limb});
+  rig.advance();
+  ASSERT_EQ(rig.forest.ended().size(), 1u);
+  EXPECT_EQ(rig.forest.ended().front().id, there);
+  EXPECT_EQ(rig.forest.breaks().front().grabs, std::vector<std::uint32_t>{there});
+  EXPECT_EQ(rig.forest.grabs().count(elsewhere), 1u);
+  for (const PromotedBranch& branch : rig.forest.promoted(0).branches)
+    EXPECT_FALSE(standing(rig.forest).skeleton.branches[branch.branch].broken);
+  rig.run(0.5);
+  const std::string held = errorOf([&] { rig.forest.addGrab(rig.grabOf(carried)); });
+  EXPECT_EQ(held, "grab: branch = " + std::to_string(carried) + " has come off");
+}
+
+TEST(Cutting, RejectsWhatCannotBeCut) {
+  PhysicsRig rig;
+  const std::string last = std::to_string(rig.branches().size() - 1);
+  EXPECT_EQ(errorOf([&] {
+              rig.forest.cut({1, 1});
+            }),
+            "cut: tree = 1 is unknown, allowed are 0 to 0");
+  EXPECT_EQ(errorOf([&] {
+              rig.forest.cut({0, 0});
+            }),
+            "cut: branch = 0 of tree 0 is outside 1 to " + last + "; 0 is the foot of the trunk");
+  EXPECT_NE(errorOf([&] { rig.forest.cut({0, -1}); }), "");
+  EXPECT_NE(errorOf([&] { rig.forest.cut({0, static_cast<int>(rig.branches().size())}); }), "");
+  const int limb = rig.tree.skeleton.depth_end[0];
+  rig.forest.cut({0, limb});
+  rig.forest.cut({0, carriedBy(rig.tree.skeleton, limb).back()});  // goes with the limb
+  rig.advance();
+  EXPECT_EQ(rig.forest.breaks().size(), 1u);
+  EXPECT_EQ(errorOf([&] {
+              rig.forest.cut({0, limb});
+            }),
+            "cut: branch = " + std::to_string(limb) + " of tree 0 has come off");
+  rig.forest.reset();
+  rig.forest.cut({0, limb});  // whole again
+}
+
+/// A forest and two replicas; the second only hears key frames.
+struct Listeners {
+  PhysicsRig rig{{}, 2};
+  ForestReplica steady, late;
+
+  Listeners() {
+    for (ForestReplica* replica : {&steady, &late}) {
+      replica->setLayout(rig.forest.layout(), flatTerrain());
+      replica->setWind(rig.forest.snapshot().wind);
+    }
+    tell(true);
+  }
+  void setWind(const wind::Field& wind) {
+    rig.forest.setWind(wind);
+    for (ForestReplica* replica : {&steady, &late}) replica->setWind(wind);
+  }
+  void tell(bool key_frame) {
+    rig.forest.updateView(key_frame);
+    const StateUpdate update = rig.forest.update(key_frame);
+    EXPECT_TRUE(steady.apply(update)) << steady.why();
+    if (!key_frame) return;
+    EXPECT_TRUE(late.apply(update)) << late.why();
+  }
+  void advance(bool key_frame = false) {
+    rig.advance();
+    tell(key_frame);
+  }
+  void expectEqual(const ForestReplica& replica) {
+    EXPECT_TRUE(replica.broken() == rig.forest.broken());
+    for (std::uint32_t id = 0; id < 4; ++id) {
+      const Tree there = replica.grow(id);
+      const Tree here = growTree(rig.forest.layout(), id, rig.forest.terrain(),
+                                 brokenOf(rig.forest.broken(), id));
+      ASSERT_EQ(there.skeleton.hash(), here.skeleton.hash());
+      const auto a = replica.pose(there, id, rig.now()),
+                 b = rig.forest.poseForSensors(here, id, rig.now());
+      for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].position == b[i].position) << i;
+    }
+  }
+};
+
+// Deltas tell what has come off since the last message, key frames all.
+TEST(Cutting, ReplicasAndLateJoinersAgreeWithTheForest) {
+  Listeners all;
+  all.setWind(steadyWind(Vec3(4.0, 1.0, 0.0)));
+  all.advance(true);
+  all.rig.forest.cut({0, 5});
+  all.advance();
+  all.expectEqual(all.steady);
+  EXPECT_TRUE(all.late.broken().empty());
+  all.rig.forest.cut({2, 7});
+  all.advance();
+  all.advance();
+  all.expectEqual(all.steady);
+  all.advance(true);
+  all.expectEqual(all.steady);
+  all.expectEqual(all.late);
+  all.rig.forest.reset();
+  all.advance(true);
+  EXPECT_TRUE(all.steady.broken().empty());
+  all.expectEqual(all.steady);
+}
+
+// A tree that has lost a limb swings in its own modes, in the forest as in replicas and after a
+// snapshot.
+TEST(Cutting, ModesOfATreeFollowItsLoss) {
+  Clearing scene;
+  ForestReplica replica;
+  scene.introduce(replica);
+  const auto advance = [&](bool key_frame) {
+    scene.advance();
+    ASSERT_TRUE(replica.apply(scene.forest.update(key_frame))) << replica.why();
+  };
+  const auto modal_state = [&] { return scene.forest.sensed().modes.find(0); };
+  for (int i = 0; i < 3 * TICK_RATE; ++i) advance(i == 0);
+  ASSERT_NE(modal_state(), nullptr);
+  const double before = modal_state()->modes().modes().frequency[0];
+  const int limb = scene.tree(0).skeleton.depth_end[0];
+  scene.forest.cut({0, limb});
+  for (int i = 0; i < 3 * TICK_RATE; ++i) {
+    advance(false);
+    const Tree tree = replica.grow(0);
+    ASSERT_TRUE(tree.skeleton.branches[static_cast<std::size_t>(limb)].broken);
+    const auto there = replica.pose(tree, 0, scene.now());
+    const auto here = scene.forest.poseForSensors(tree, 0, scene.now());
+    for (std::size_t k = 0; k < here.size(); ++k)
+      ASSERT_TRUE(there[k].position == here[k].position) << "tick " << i << ", branch " << k;
+  }
+  ASSERT_NE(modal_state(), nullptr);
+  EXPECT_NE(modal_state()->modes().modes().frequency[0], before);
+  Forest other(scene.forest.layout(), flatTerrain(), scene.settings);
+  other.restore(other.readArchived(scene.forest.archived()));
+  EXPECT_EQ(other.hash(), scene.forest.hash());
+  scene.advance();
+  other.setSensor(scene.sensor);
+  other.advance(scene.now());
+  EXPECT_EQ(other.hash(), scene.forest.hash());
+}
+
+TEST(Cutting, ReplicasRejectBranchesThatATreeCannotLose) {
+  Listeners all;
+  StateUpdate update = all.rig.forest.update(true);
+  BrokenBranch foot;
+  foot.branch = 0;
+  update.trees = {{0, LevelState(), {}, {}, {foot}}};
+  EXPECT_EQ(errorOf([&] { all.steady.apply(update); }), "state: tree 0: its foot cannot come off");
+  update.trees[0].broken[0].branch = 16000;
+  const std::string count = std::to_string(all.rig.branches().size());
+  EXPECT_EQ(errorOf([&] { all.steady.apply(update); }),
+            "state: tree 0: branch 16000 is not below its " + count + " branches");
+}
+
+}  // namespace
+}  // namespace vegetation_sim::forest
