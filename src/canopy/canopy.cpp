@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/canopy/canopy.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "canopy/contact/plant_pusher.h"
@@ -44,6 +45,19 @@ void checkPush(const PushState& push, const Layout& layout) {
   faults.throwIfAny();
 }
 
+void checkStubble(const Stubble& stubble, const Layout& layout, const std::string& context) {
+  Faults faults;
+  for (const auto& [id, height] : stubble) {
+    if (id >= layout.plants.size())
+      faults.add(context + "cut plant " + std::to_string(id) + " is unknown; there are " +
+                 std::to_string(layout.plants.size()));
+    const std::string name = context + "height of the cut of plant " + std::to_string(id);
+    const std::string fault = rangeFault(name, height, "m", CUT_HEIGHTS);
+    if (!fault.empty()) faults.add(fault);
+  }
+  faults.throwIfAny();
+}
+
 PlaneMotion meanOf(const PlaneField& motion) {
   PlaneMotion out;
   for (std::size_t i = 0; i < motion.u.size(); ++i) {
@@ -79,6 +93,7 @@ Canopy::Canopy(const Layout& layout)
       oscillator_(layout.motion.oscillator, layout.motion.fluid.cells, plane_.width),
       foliage_(layout_),
       pusher_(std::make_unique<PlantPusher>(layout_.kinds, layout_.plants)) {
+  foliage_.setStubble(memory_.push.stubble);
   reset();
 }
 
@@ -100,6 +115,7 @@ void Canopy::restore(const CanopySnapshot& memory) {
       memory.history.frames() != historyFrames(layout_.motion))
     throw InvalidInput("snapshot: the history belongs to another layout");
   checkPush(memory.push, layout_);
+  checkStubble(memory.push.stubble, layout_, "snapshot: ");
   Fluid fluid = fluid_;
   fluid.restore(memory.fluid);
   oscillator_.restore(memory.oscillator);
@@ -147,6 +163,30 @@ void Canopy::setBody(const forest::Body& body) {
 void Canopy::removeBody(const std::string& id) {
   if (memory_.push.bodies.erase(id) == 0)
     throw InvalidInput("body '" + id + "' is unknown", FaultCode::UNKNOWN);
+}
+
+bool Canopy::canCut(std::uint32_t plant, double height) const {
+  const Plant& own = layout_.plants[plant];
+  const PlantKind& kind = layout_.kinds[own.kind];
+  return kind.shape != PlantShape::TRELLIS &&
+         height < std::min(memory_.push.heightOf(plant), own.scale * kind.height);
+}
+
+std::vector<CutPiece> Canopy::cut(const std::vector<std::uint32_t>& plants, double height) {
+  Stubble cuts;
+  for (const std::uint32_t plant : plants) cuts[plant] = height;
+  checkStubble(cuts, layout_, "cut: ");
+  std::vector<CutPiece> out;
+  for (const std::uint32_t plant : plants) {
+    if (!canCut(plant, height)) continue;
+    const Plant& own = layout_.plants[plant];
+    const double top = own.scale * layout_.kinds[own.kind].height;
+    out.push_back({plant, std::min(memory_.push.heightOf(plant), top) - height});
+    memory_.push.stubble[plant] = height;
+    if (pusher_->fibresOf(plant, height).length < SHORTEST_FIBRES) memory_.push.plants.erase(plant);
+  }
+  stale_ = stale_ || !out.empty();
+  return out;
 }
 
 bool Canopy::isNear(const forest::Body& body) const {
@@ -233,10 +273,19 @@ const Foliage& Canopy::foliage() {
   return foliage_;
 }
 
-StateUpdate Canopy::update(bool hashed) const {
-  return {memory_.stamp,          memory_.ticks, memory_.history.frame(0),
-          memory_.driver.share(), memory_.cuts,  bentCells(memory_.push),
-          layout_hash_,           wind_.hash(),  hashed ? memory_.hash() : 0};
+StateUpdate Canopy::update(bool hashed, bool with_stubble) const {
+  StateUpdate out{memory_.stamp,
+                  memory_.ticks,
+                  memory_.history.frame(0),
+                  memory_.driver.share(),
+                  memory_.cuts,
+                  bentCells(memory_.push),
+                  std::nullopt,
+                  layout_hash_,
+                  wind_.hash(),
+                  hashed ? memory_.hash() : 0};
+  if (with_stubble) out.stubble = memory_.push.stubble;
+  return out;
 }
 
 Replica::Replica(const Layout& layout)
@@ -244,13 +293,17 @@ Replica::Replica(const Layout& layout)
       layout_hash_(layout.hash()),
       history_(layout.motion.fluid.cells, historyFrames(layout.motion)),
       foliage_(layout_),
-      plane_foliage_(layout_) {}
+      plane_foliage_(layout_) {
+  foliage_.setStubble(stubble_);
+  plane_foliage_.setStubble(stubble_);
+}
 
 void Replica::apply(const StateUpdate& update) {
   if (update.layout_hash != layout_hash_)
     throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
                        " is not that of the layout, " + std::to_string(layout_hash_));
   foliage_.checkBent(update.bent);
+  if (update.stubble) checkStubble(*update.stubble, layout_, "state: ");
   const bool next = received_ > 0 && update.sequence == last_.sequence + 1;
   const bool first = update.sequence <= 1;
   if (!next || first) {
@@ -262,7 +315,11 @@ void Replica::apply(const StateUpdate& update) {
     history_.push(update.frame);
     ++received_;
   }
+  // Before the first tick no plant has been cut. A lost message may have had others.
+  if (first || update.stubble) stubble_ = update.stubble.value_or(Stubble());
+  knows_stubble_ = first || update.stubble || (next && knows_stubble_);
   last_ = update;
+  last_.stubble.reset();
   stale_ = plane_stale_ = true;
 }
 
