@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/canopy/canopy.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "canopy/contact/plant_pusher.h"
+#include "canopy/plants/stubble.h"
 #include "forest/contact/contact_body.h"
 
 namespace vegetation_sim::canopy {
@@ -42,19 +42,6 @@ void checkPush(const PushState& push, const Layout& layout) {
     faults.add("snapshot: " + std::to_string(cells) + " cells lean, allowed are " +
                std::to_string(MOST_CLUSTERS));
   for (const auto& entry : push.bodies) forest::check(entry.second, faults);
-  faults.throwIfAny();
-}
-
-void checkStubble(const Stubble& stubble, const Layout& layout, const std::string& context) {
-  Faults faults;
-  for (const auto& [id, height] : stubble) {
-    if (id >= layout.plants.size())
-      faults.add(context + "cut plant " + std::to_string(id) + " is unknown; there are " +
-                 std::to_string(layout.plants.size()));
-    const std::string name = context + "height of the cut of plant " + std::to_string(id);
-    const std::string fault = rangeFault(name, height, "m", CUT_HEIGHTS);
-    if (!fault.empty()) faults.add(fault);
-  }
   faults.throwIfAny();
 }
 
@@ -115,7 +102,7 @@ void Canopy::restore(const CanopySnapshot& memory) {
       memory.history.frames() != historyFrames(layout_.motion))
     throw InvalidInput("snapshot: the history belongs to another layout");
   checkPush(memory.push, layout_);
-  checkStubble(memory.push.stubble, layout_, "snapshot: ");
+  checkStubble(memory.push.stubble, layout_.plants.size(), "snapshot: ");
   Fluid fluid = fluid_;
   fluid.restore(memory.fluid);
   oscillator_.restore(memory.oscillator);
@@ -163,30 +150,6 @@ void Canopy::setBody(const forest::Body& body) {
 void Canopy::removeBody(const std::string& id) {
   if (memory_.push.bodies.erase(id) == 0)
     throw InvalidInput("body '" + id + "' is unknown", FaultCode::UNKNOWN);
-}
-
-bool Canopy::canCut(std::uint32_t plant, double height) const {
-  const Plant& own = layout_.plants[plant];
-  const PlantKind& kind = layout_.kinds[own.kind];
-  return kind.shape != PlantShape::TRELLIS &&
-         height < std::min(memory_.push.heightOf(plant), own.scale * kind.height);
-}
-
-std::vector<CutPiece> Canopy::cut(const std::vector<std::uint32_t>& plants, double height) {
-  Stubble cuts;
-  for (const std::uint32_t plant : plants) cuts[plant] = height;
-  checkStubble(cuts, layout_, "cut: ");
-  std::vector<CutPiece> out;
-  for (const std::uint32_t plant : plants) {
-    if (!canCut(plant, height)) continue;
-    const Plant& own = layout_.plants[plant];
-    const double top = own.scale * layout_.kinds[own.kind].height;
-    out.push_back({plant, std::min(memory_.push.heightOf(plant), top) - height});
-    memory_.push.stubble[plant] = height;
-    if (pusher_->fibresOf(plant, height).length < SHORTEST_FIBRES) memory_.push.plants.erase(plant);
-  }
-  stale_ = stale_ || !out.empty();
-  return out;
 }
 
 bool Canopy::isNear(const forest::Body& body) const {
@@ -303,7 +266,7 @@ void Replica::apply(const StateUpdate& update) {
     throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
                        " is not that of the layout, " + std::to_string(layout_hash_));
   foliage_.checkBent(update.bent);
-  if (update.stubble) checkStubble(*update.stubble, layout_, "state: ");
+  if (update.stubble) checkStubble(*update.stubble, layout_.plants.size(), "state: ");
   const bool next = received_ > 0 && update.sequence == last_.sequence + 1;
   const bool first = update.sequence <= 1;
   if (!next || first) {

@@ -53,4 +53,15 @@ void cutOff(double z, GrownPlant& plant) {
       stem.to = stem.from + shareBelow(z, stem.from, stem.to) * (stem.to - stem.from);
 }
 
+void checkStubble(const Stubble& stubble, std::size_t plants, const std::string& context) {
+  Faults faults;
+  for (const auto& [id, height] : stubble) {
+    const std::string name = context + "cut of plant " + std::to_string(id);
+    if (id >= plants) faults.add(name + ": there are " + std::to_string(plants) + " plants");
+    const std::string fault = rangeFault(name + ": height", height, "m", CUT_HEIGHTS);
+    if (!fault.empty()) faults.add(fault);
+  }
+  faults.throwIfAny();
+}
+
 }  // namespace vegetation_sim::canopy

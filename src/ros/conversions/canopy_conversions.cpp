@@ -125,6 +125,9 @@ canopy::StateUpdate fromMsg(const CanopyState& message) {
   if (message.cut_heights.size() != message.cut_plants.size())
     faults.add("state: cut_heights has " + std::to_string(message.cut_heights.size()) +
                " entries, cut_plants has " + std::to_string(message.cut_plants.size()));
+  if (message.cut_plants.size() > canopy::MOST_PLANTS)
+    faults.add("state: cut_plants has " + std::to_string(message.cut_plants.size()) +
+               " entries, allowed are " + std::to_string(canopy::MOST_PLANTS));
   const std::string fault = rangeFault("state: front_share", message.front_share, "", {0.0, 1.0});
   if (!fault.empty()) faults.add(fault);
   faults.throwIfAny();
