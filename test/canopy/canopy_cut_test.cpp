@@ -13,7 +13,7 @@ namespace vegetation_sim::canopy {
 namespace {
 
 /// A box whose lowest point is 0.3 m above the ground drives along the row of the two shrubs.
-forest::Body robotAt(double x, Nanoseconds stamp) {
+forest::Body barAt(double x, Nanoseconds stamp) {
   forest::Body out;
   out.id = out.frame = "robot";
   out.shape = forest::Shape::BOX;
@@ -25,10 +25,10 @@ forest::Body robotAt(double x, Nanoseconds stamp) {
 }
 
 // Drives through both shrubs. Returns the largest force.
-double drive(Canopy& canopy) {
+double driveThrough(Canopy& canopy) {
   double out = 0.0;
   for (int tick = 10; tick < 110; ++tick) {
-    canopy.setBody(robotAt(-2.0 + 0.05 * (tick - 10), tickStamp(tick)));
+    canopy.setBody(barAt(-2.0 + 0.05 * (tick - 10), tickStamp(tick)));
     canopy.advance(tickStamp(tick));
     for (const PushForce& force : canopy.pushForces()) out = std::max(out, length(force.force));
   }
@@ -87,7 +87,7 @@ TEST(CanopyCut, StubbleBelowABodyDoesNotPushIt) {
     Canopy canopy(shrubScene());
     run(canopy, 0, 10);
     canopy.cut({0, 1}, height);
-    forces.push_back(drive(canopy));
+    forces.push_back(driveThrough(canopy));
   }
   EXPECT_GT(forces[0], 20.0);
   EXPECT_GT(forces[1], 1.0);
@@ -99,7 +99,7 @@ TEST(CanopyCut, StubbleBelowABodyDoesNotPushIt) {
 TEST(CanopyCut, APlantThatLeansAndIsCutAtItsFootLeansNoLonger) {
   Canopy canopy(shrubScene());
   run(canopy, 0, 10);
-  drive(canopy);
+  driveThrough(canopy);
   ASSERT_FALSE(canopy.snapshot().push.plants.empty());
   const std::uint32_t leans = canopy.snapshot().push.plants.begin()->first;
   canopy.cut({leans}, 0.0);
@@ -115,7 +115,7 @@ TEST(CanopyCut, ASnapshotContinuesWithTheSameHashes) {
   other.restore(read.snapshot);
   EXPECT_EQ(other.foliage().cutHeight(1), 0.4);
   EXPECT_EQ(other.archived(), canopy.archived());
-  EXPECT_EQ(drive(other), drive(canopy));
+  EXPECT_EQ(driveThrough(other), driveThrough(canopy));
   EXPECT_EQ(other.snapshot().hash(), canopy.snapshot().hash());
   CanopySnapshot wrong = read.snapshot;
   wrong.push.stubble[7] = 0.1;

@@ -186,7 +186,7 @@ class PythonClients(unittest.TestCase):
         plants.set_cutting(True)
         with self.assertRaisesRegex(VegetationError, 'height = 7 m is outside 0 to 5 m') as raised:
             plants.cut((2.0, 0.3), radius=0.3, height=7.0)
-        self.assertEqual(raised.exception.code, ErrorCode.INVALID)
+        self.assertEqual(raised.exception.code, ErrorCode.INVALID_VALUE)
 
     def test_the_sky_is_open_above_a_tree_and_not_beside_its_trunk(self):
         wait_for(lambda: self.sky.at((0.5, 0.2, 1))[0].sky_view_factor < 0.8, 'the tree')

@@ -11,9 +11,9 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr double FOOT = 0.5, HEIGHT = 0.3;  // [m]
+constexpr double GROUND = 0.5, CUT = 0.3;  // [m]
 
-PlantKind kindOf(PlantShape shape) {
+PlantKind kindToCut(PlantShape shape) {
   PlantKind out;
   out.shape = shape;
   out.height = 2.4;
@@ -23,7 +23,7 @@ PlantKind kindOf(PlantShape shape) {
   return out;
 }
 
-Plant plantAt(double foot) {
+Plant plantOn(double foot) {
   Plant out;
   out.seed = 7;
   out.position = Vec3(3.0, -2.0, foot);
@@ -31,7 +31,7 @@ Plant plantAt(double foot) {
   return out;
 }
 
-double topOf(const GrownPlant& grown) {
+double highestOf(const GrownPlant& grown) {
   double out = -1e9;
   for (const Leaf& leaf : grown.leaves) out = std::max({out, leaf.root.z(), leaf.tip.z()});
   for (const Leaf& face : grown.rigid) out = std::max({out, face.root.z(), face.tip.z()});
@@ -42,18 +42,18 @@ double topOf(const GrownPlant& grown) {
 TEST(Stubble, NothingIsAboveTheCutAndStemsEndThere) {
   for (const PlantShape shape : {PlantShape::SHRUB, PlantShape::CROWN, PlantShape::REED,
                                  PlantShape::KELP, PlantShape::STALK}) {
-    const PlantKind kind = kindOf(shape);
-    const Plant plant = plantAt(FOOT);
-    const GrownPlant whole = grow(kind, plant), cut = grow(kind, plant, HEIGHT);
-    EXPECT_GT(topOf(whole), FOOT + 1.5);
-    EXPECT_NEAR(topOf(cut), FOOT + HEIGHT, 1e-9);
+    const PlantKind kind = kindToCut(shape);
+    const Plant plant = plantOn(GROUND);
+    const GrownPlant whole = grow(kind, plant), cut = grow(kind, plant, CUT);
+    EXPECT_GT(highestOf(whole), GROUND + 1.5);
+    EXPECT_NEAR(highestOf(cut), GROUND + CUT, 1e-9);
     EXPECT_LT(cut.leaves.size(), whole.leaves.size());
     ASSERT_LE(cut.stems.size(), whole.stems.size());
     // The stems that are left begin in the same places and are as thick.
     for (std::size_t i = 0; i < cut.stems.size(); ++i) {
       EXPECT_EQ(cut.stems[i].from, whole.stems[i].from);
       EXPECT_EQ(cut.stems[i].radius, whole.stems[i].radius);
-      EXPECT_NEAR(cut.stems[i].to.z(), FOOT + HEIGHT, 1e-9);
+      EXPECT_NEAR(cut.stems[i].to.z(), GROUND + CUT, 1e-9);
     }
     EXPECT_EQ(grow(kind, plant, 5.0).leaves.size(), whole.leaves.size());
     const GrownPlant gone = grow(kind, plant, 0.0);
@@ -63,8 +63,8 @@ TEST(Stubble, NothingIsAboveTheCutAndStemsEndThere) {
 
 // A ribbon is an arch: what comes after its cut has come off, even where it hangs below the height.
 TEST(Stubble, OfARibbonThePiecesUpToTheCutAreLeft) {
-  const PlantKind kind = kindOf(PlantShape::STALK);
-  const Plant plant = plantAt(0.0);
+  const PlantKind kind = kindToCut(PlantShape::STALK);
+  const Plant plant = plantOn(0.0);
   const double height = 1.5;
   const GrownPlant whole = grow(kind, plant), cut = grow(kind, plant, height);
   std::size_t expected = 0, hanging = 0;
