@@ -25,6 +25,7 @@ push         | push         | 9  | Forest/Leaves=true;Forest/Colour by Level=fal
 hedge        | hedge        | 9  |
 meadow_robot | meadow_robot | 20 |
 mowing       | mowing       | 50 |
+harvest      | harvest      | 34 |
 crowd        | crowd        | 12 |
 grove        | grove        | 8  |
 reef         | reef         | 8  |

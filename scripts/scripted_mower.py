@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives a mower without a robot to and fro through branches and plants, which its hull and mast
-push aside; or lane by lane over a meadow, if ~lanes is above 0.
+push aside; or lane by lane over a meadow or a field, if ~lanes is above 0.
 
 It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches and
 canopy/contacts. config/robots/mower.urdf has its collision geometry.
@@ -32,6 +32,8 @@ class ScriptedMower:
         self.way = rospy.get_param('~way', 5.0)
         self.lanes = rospy.get_param('~lanes', 0)
         self.lane_width = rospy.get_param('~lane_width', 1.0)  # [m]
+        # Drawn deck: how far ahead it is, its length and width, and its height above the ground. [m]
+        self.deck = rospy.get_param('~deck', [0.2, 0.5, 1.1, 0.12])
         self.start, self.pose = None, (-self.way, 0.0, 0.0)  # x, y, yaw
         self.wrenches = deque()
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
@@ -104,7 +106,8 @@ class ScriptedMower:
                   for i, (x, y) in enumerate([(-0.4, -0.36), (-0.4, 0.36), (0.4, -0.36), (0.4, 0.36)])]
         hull = self.solid(0, Marker.CUBE, (0.0, 0.0, 0.4), (1.1, 0.7, 0.5), GREEN)
         if self.lanes:
-            deck = self.solid(3, Marker.CUBE, (0.2, 0.0, 0.12), (0.5, 1.1, 0.08), STEEL)
+            ahead, length, width, height = self.deck
+            deck = self.solid(3, Marker.CUBE, (ahead, 0.0, height), (length, width, 0.08), STEEL)
             self.markers.publish(MarkerArray(wheels + [hull, deck]))
             return
         self.markers.publish(MarkerArray(wheels + [

@@ -42,6 +42,9 @@ class Grove {
       replica_.apply(animator_.update(false));
     }
   }
+  void cut(const std::vector<std::uint32_t>& plants, double height) {
+    animator_.cut(plants, height);
+  }
   void show(Plants& plants, ThreadPool& threads, const Vec3& centre = Vec3::Zero(),
             double radius = 60.0) {
     plants.update(replica_.layout(), replica_.layoutHash(), replica_.foliageOfPlane(), centre,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "canopy/contact/plant_pusher.h"
+#include "canopy/plants/stubble.h"
 #include "forest/contact/contact_body.h"
 
 namespace vegetation_sim::canopy {
@@ -79,6 +80,7 @@ Canopy::Canopy(const Layout& layout)
       oscillator_(layout.motion.oscillator, layout.motion.fluid.cells, plane_.width),
       foliage_(layout_),
       pusher_(std::make_unique<PlantPusher>(layout_.kinds, layout_.plants)) {
+  foliage_.setStubble(memory_.push.stubble);
   reset();
 }
 
@@ -100,6 +102,7 @@ void Canopy::restore(const CanopySnapshot& memory) {
       memory.history.frames() != historyFrames(layout_.motion))
     throw InvalidInput("snapshot: the history belongs to another layout");
   checkPush(memory.push, layout_);
+  checkStubble(memory.push.stubble, layout_.plants.size(), "snapshot: ");
   Fluid fluid = fluid_;
   fluid.restore(memory.fluid);
   oscillator_.restore(memory.oscillator);
@@ -233,10 +236,19 @@ const Foliage& Canopy::foliage() {
   return foliage_;
 }
 
-StateUpdate Canopy::update(bool hashed) const {
-  return {memory_.stamp,          memory_.ticks, memory_.history.frame(0),
-          memory_.driver.share(), memory_.cuts,  bentCells(memory_.push),
-          layout_hash_,           wind_.hash(),  hashed ? memory_.hash() : 0};
+StateUpdate Canopy::update(bool hashed, bool with_stubble) const {
+  StateUpdate out{memory_.stamp,
+                  memory_.ticks,
+                  memory_.history.frame(0),
+                  memory_.driver.share(),
+                  memory_.cuts,
+                  bentCells(memory_.push),
+                  std::nullopt,
+                  layout_hash_,
+                  wind_.hash(),
+                  hashed ? memory_.hash() : 0};
+  if (with_stubble) out.stubble = memory_.push.stubble;
+  return out;
 }
 
 Replica::Replica(const Layout& layout)
@@ -244,13 +256,17 @@ Replica::Replica(const Layout& layout)
       layout_hash_(layout.hash()),
       history_(layout.motion.fluid.cells, historyFrames(layout.motion)),
       foliage_(layout_),
-      plane_foliage_(layout_) {}
+      plane_foliage_(layout_) {
+  foliage_.setStubble(stubble_);
+  plane_foliage_.setStubble(stubble_);
+}
 
 void Replica::apply(const StateUpdate& update) {
   if (update.layout_hash != layout_hash_)
     throw InvalidInput("state: layout_hash = " + std::to_string(update.layout_hash) +
                        " is not that of the layout, " + std::to_string(layout_hash_));
   foliage_.checkBent(update.bent);
+  if (update.stubble) checkStubble(*update.stubble, layout_.plants.size(), "state: ");
   const bool next = received_ > 0 && update.sequence == last_.sequence + 1;
   const bool first = update.sequence <= 1;
   if (!next || first) {
@@ -262,7 +278,11 @@ void Replica::apply(const StateUpdate& update) {
     history_.push(update.frame);
     ++received_;
   }
+  // Before the first tick no plant has been cut. A lost message may have had others.
+  if (first || update.stubble) stubble_ = update.stubble.value_or(Stubble());
+  knows_stubble_ = first || update.stubble || (next && knows_stubble_);
   last_ = update;
+  last_.stubble.reset();
   stale_ = plane_stale_ = true;
 }
 

@@ -56,6 +56,12 @@ void Foliage::update(const History& history, double front_share, const CutState&
   if (share_ < 1.0) build(cuts_[1], cuts.before, history, front_share);
 }
 
+double Foliage::cutHeight(std::size_t plant) const {
+  if (!anyCut()) return UNCUT;
+  const auto cut = stubble_->find(static_cast<std::uint32_t>(plant));
+  return cut == stubble_->end() ? UNCUT : cut->second;
+}
+
 LayerCut Foliage::cut(const CutView& view, bool crowns) const {
   const Vec3 out = axesOf(view.orientation).out;
   const double flat = std::sqrt(out.x() * out.x() + out.y() * out.y());

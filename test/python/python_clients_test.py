@@ -14,7 +14,7 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
-from vegetation_sim import Crowd, Forest, Grass, Sky, VegetationError, Wind
+from vegetation_sim import Crowd, Forest, Grass, Plants, Sky, VegetationError, Wind
 from vegetation_sim.msg import AgentStates, ErrorCode, GrabStatus, SkyView
 
 TREE, LIMB = 0, 46
@@ -177,6 +177,16 @@ class PythonClients(unittest.TestCase):
                 return False
         wait_for(known, 'the walkers')
         self.crowd.remove(ids)
+
+    def test_plants_are_cut_once(self):
+        plants = Plants()
+        self.assertEqual(plants.cut((2.0, 0.3), radius=0.3, height=0.5), 1)
+        wait_for(lambda: plants.cut((2.0, 0.3), radius=0.3, height=0.5) == 0, 'the cut')
+        plants.set_cutting(False)
+        plants.set_cutting(True)
+        with self.assertRaisesRegex(VegetationError, 'height = 7 m is outside 0 to 5 m') as raised:
+            plants.cut((2.0, 0.3), radius=0.3, height=7.0)
+        self.assertEqual(raised.exception.code, ErrorCode.INVALID_VALUE)
 
     def test_the_sky_is_open_above_a_tree_and_not_beside_its_trunk(self):
         wait_for(lambda: self.sky.at((0.5, 0.2, 1))[0].sky_view_factor < 0.8, 'the tree')

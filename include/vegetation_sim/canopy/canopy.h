@@ -42,13 +42,21 @@ struct StateUpdate {
   MotionFrame frame;
   double front_share{1.0};
   CutState cuts;
-  std::vector<BentCell> bent;  ///< all cells that lean
+  std::vector<BentCell> bent;      ///< all cells that lean
+  std::optional<Stubble> stubble;  ///< all plants that have been cut; without a value: as before
   std::uint64_t layout_hash{0}, wind_hash{0};
   std::uint64_t hash{0};  ///< hash of the sender's state; 0: not computed
 };
 
+/// A piece that has come off a plant.
+struct CutPiece {
+  std::uint32_t plant{0};
+  double length{0.0};  ///< from the cut to the top that the plant had [m]
+};
+
 /// Wind and leaves in the plane, tick by tick, and the layers that move with them (paper 3); and
-/// plants that bodies push. The core without ROS: time, wind, viewer and bodies are inputs.
+/// plants that bodies push and tools cut. The core without ROS: time, wind, viewer and bodies are
+/// inputs.
 class Canopy {
  public:
   /// @throws InvalidInput with all faults of the layout.
@@ -82,6 +90,14 @@ class Canopy {
   /// Returns the number of times that a plant did not lean because too many cells do.
   std::uint64_t refusedPushes() const;
 
+  /// Returns whether a plant of the layout is higher than this above its foot [m]. A trellis cannot
+  /// be cut.
+  bool canCut(std::uint32_t plant, double height) const;
+  /// Cuts those plants that can be cut at a height. The lowest cut counts, and nothing grows again.
+  /// Returns the pieces in the order of the plants. @throws InvalidInput for unknown plants and a
+  /// height outside CUT_HEIGHTS.
+  std::vector<CutPiece> cut(const std::vector<std::uint32_t>& plants, double height);
+
   /// Replaces the settings of sources, leaves, layers and warp from the next tick on. @throws
   /// InvalidInput for faults, and for another plane, grid, rate, memory or integrator, which need a
   /// fresh start. Nothing has changed then.
@@ -106,8 +122,9 @@ class Canopy {
   };
   std::string archived() const;
   Archived readArchived(std::string bytes, Nanoseconds shift = 0) const;
-  /// @param hashed adds the hash of the state, which costs as much as a tick.
-  StateUpdate update(bool hashed) const;
+  /// @param hashed adds the hash of the state, which costs as much as a tick. @param with_stubble
+  /// adds the plants that have been cut.
+  StateUpdate update(bool hashed, bool with_stubble = true) const;
 
   /// Returns the layers of the last tick.
   const Foliage& foliage();
@@ -151,8 +168,8 @@ class Replica {
   const Layout& layout() const { return layout_; }
   /// @throws InvalidInput for another layout or size; nothing has changed then.
   void apply(const StateUpdate& update);
-  /// Returns whether the whole history has been received.
-  bool exact() const { return received_ >= history_.frames(); }
+  /// Returns whether the whole history and the plants that have been cut have been received.
+  bool exact() const { return received_ >= history_.frames() && knows_stubble_; }
   /// Sets the crowns; the same crowns as the animator's give the same layers.
   void setCrowns(std::vector<LeafBox> crowns);
   const Foliage& foliage();
@@ -160,12 +177,16 @@ class Replica {
   /// front. They do not depend on viewers, so sensors perceive the same with and without them.
   const Foliage& foliageOfPlane();
   std::uint64_t layoutHash() const { return layout_hash_; }
+  /// Returns the height at which a plant has been cut, or UNCUT [m].
+  double cutHeight(std::size_t plant) const { return foliage_.cutHeight(plant); }
 
  private:
   Layout layout_;
   std::uint64_t layout_hash_;
   History history_;
   StateUpdate last_;
+  Stubble stubble_;
+  bool knows_stubble_{false};
   int received_{0};
   Foliage foliage_, plane_foliage_;
   bool stale_{true}, plane_stale_{true};

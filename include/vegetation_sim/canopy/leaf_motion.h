@@ -52,6 +52,13 @@ class Foliage {
   /// leans than fibres can have.
   void checkBent(const std::vector<BentCell>& cells) const;
 
+  /// Sets the heights at which plants have been cut; they must outlive it.
+  void setStubble(const Stubble& stubble) { stubble_ = &stubble; }
+  /// Returns the height at which a plant has been cut, or UNCUT [m].
+  double cutHeight(std::size_t plant) const;
+  /// Returns whether a plant has been cut.
+  bool anyCut() const { return stubble_ && !stubble_->empty(); }
+
   /// Cuts all plants and crowns into layers for a view.
   LayerCut cutFor(const CutView& view) const { return cut(view, true); }
   /// Cuts the plants alone, which follow from the layout: the state must not depend on crowns.
@@ -114,6 +121,7 @@ class Foliage {
   std::array<Cut, 2> cuts_;  // cuts, the newer one first
   double share_{1.0};        // share of the newer one
   std::map<std::size_t, BentPlant> bent_;
+  const Stubble* stubble_{nullptr};
 };
 
 }  // namespace vegetation_sim::canopy

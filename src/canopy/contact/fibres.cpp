@@ -37,12 +37,12 @@ Vec3 Fibres::footOf(std::size_t cell) const {
   return foot + Vec3((column + 0.5) * edge() - half, (row + 0.5) * edge() - half, 0.0);
 }
 
-Fibres fibresOf(const PlantKind& kind, const Plant& plant) {
-  const double height = plant.scale * kind.height;
-  const double trunk = kind.shape == PlantShape::CROWN ? TRUNK_SHARE * height : 0.0;
+Fibres fibresOf(const PlantKind& kind, const Plant& plant, double height) {
+  const double top = plant.scale * kind.height;
+  const double trunk = kind.shape == PlantShape::CROWN ? TRUNK_SHARE * top : 0.0;
   Fibres out;
   out.foot = plant.position + Vec3(0.0, 0.0, trunk);
-  out.length = height - trunk;
+  out.length = std::max(0.0, std::min(height, top) - trunk);
   out.half = plant.scale * (kind.form ? kind.height * kind.form->radius : kind.radius);
   out.half = std::max(out.half, 1e-3);
   out.side =
@@ -67,6 +67,11 @@ bool Cluster::rests() const {
   return isStill(lean) && isStill(rate) && isStill(set);
 }
 
+double PushState::heightOf(std::uint32_t plant) const {
+  const auto cut = stubble.find(plant);
+  return cut == stubble.end() ? UNCUT : cut->second;
+}
+
 void PushState::addTo(Hash& hash) const {
   for (const auto& [id, clusters] : plants) {
     hash.add(static_cast<std::uint64_t>(id));
@@ -76,6 +81,10 @@ void PushState::addTo(Hash& hash) const {
   for (const auto& [id, body] : bodies) {
     hash.add(id);
     forest::addTo(hash, body);
+  }
+  for (const auto& [id, height] : stubble) {
+    hash.add(static_cast<std::uint64_t>(id));
+    hash.add(height);
   }
 }
 
@@ -95,6 +104,10 @@ void archivePush(Archive& a, PushState& state) {
       "pushing bodies", state.bodies, MOST_PUSHING, BODY_BYTES,
       [&a](std::string& id) { a.text("pushing body", id, LONGEST_NAME); },
       [&a](const std::string&, forest::Body& body) { forest::archiveBody(a, body); });
+  a.map(
+      "cut plants", state.stubble, MOST_PLANTS, sizeof(std::uint32_t) + sizeof(double),
+      [&a](std::uint32_t& id) { a.integer("cut plant", id); },
+      [&a](std::uint32_t, double& height) { a.number("height of a cut", height, CUT_HEIGHTS); });
 }
 
 std::vector<BentCell> bentCells(const PushState& state) {

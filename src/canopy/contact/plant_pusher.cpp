@@ -64,9 +64,11 @@ void PlantPusher::sortPlants() {
   }
 }
 
-bool PlantPusher::canReach(std::uint32_t plant, bool leans, const forest::Body& body,
+bool PlantPusher::canReach(std::uint32_t plant, const PushState& state, const forest::Body& body,
                            Nanoseconds from, Nanoseconds to) const {
-  const Fibres fibres = fibresOf(plant);
+  const Fibres fibres = fibresOf(plant, state.heightOf(plant));
+  const bool leans = state.plants.count(plant) > 0;
+  if (fibres.length < SHORTEST_FIBRES) return false;
   const Vec3 offset = poseAt(body, to).position - fibres.foot;
   const double reach = shapeOf(body).reach() + wayOf(body, secondsBetween(from, to));
   const double flat = reach + reachOf(fibres, leans);
@@ -87,7 +89,7 @@ void PlantPusher::visitNear(const PushState& state, const forest::Body& body, Na
     if (square->first.first > high.first) return;
     if (square->first.second < low.second || square->first.second > high.second) continue;
     for (const std::uint32_t id : square->second)
-      if (canReach(id, state.plants.count(id) > 0, body, from, to) && !visit(id)) return;
+      if (canReach(id, state, body, from, to) && !visit(id)) return;
   }
 }
 
@@ -114,10 +116,10 @@ std::map<std::uint32_t, PlantPusher::Near> PlantPusher::findTouched(const PushSt
   return out;
 }
 
-void PlantPusher::step(std::uint32_t plant, const Near& near, Nanoseconds from, Nanoseconds to,
-                       std::vector<Cluster>& clusters, std::vector<PushForce>& out) const {
+void PlantPusher::step(std::uint32_t plant, const Fibres& fibres, const Near& near,
+                       Nanoseconds from, Nanoseconds to, std::vector<Cluster>& clusters,
+                       std::vector<PushForce>& out) const {
   const PushLaw& law = lawOf(plant);
-  const Fibres fibres = fibresOf(plant);
   const double seconds = secondsBetween(from, to);
   const int steps = near.empty() ? 1 : stepsFor(near, seconds);
   std::vector<BodyLoad> loads(near.size());
@@ -149,7 +151,8 @@ std::vector<PushForce> PlantPusher::advance(PushState& state, Nanoseconds from, 
   std::size_t cells = 0;
   for (const auto& entry : state.plants) cells += entry.second.size();
   for (const auto& [plant, near] : findTouched(state, from, to)) {
-    const std::size_t count = fibresOf(plant).cells();
+    const Fibres fibres = fibresOf(plant, state.heightOf(plant));
+    const std::size_t count = fibres.cells();
     if (!state.plants.count(plant)) {
       if (cells + count > MOST_CLUSTERS) {
         ++refused_;
@@ -159,7 +162,7 @@ std::vector<PushForce> PlantPusher::advance(PushState& state, Nanoseconds from, 
     }
     std::vector<Cluster>& clusters = state.plants[plant];
     clusters.resize(count);
-    step(plant, near, from, to, clusters, out);
+    step(plant, fibres, near, from, to, clusters, out);
     if (!allRest(clusters)) continue;
     cells -= count;
     state.plants.erase(plant);

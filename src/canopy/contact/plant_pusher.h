@@ -25,8 +25,8 @@ class PlantPusher {
   /// Number of times that a plant did not lean because too many cells do.
   std::uint64_t refused() const { return refused_; }
 
-  Fibres fibresOf(std::uint32_t plant) const {
-    return canopy::fibresOf(kinds_[plants_[plant].kind], plants_[plant]);
+  Fibres fibresOf(std::uint32_t plant, double height = UNCUT) const {
+    return canopy::fibresOf(kinds_[plants_[plant].kind], plants_[plant], height);
   }
   const PushLaw& lawOf(std::uint32_t plant) const { return kinds_[plants_[plant].kind].push; }
 
@@ -40,10 +40,10 @@ class PlantPusher {
                  Visit visit) const;
   std::map<std::uint32_t, Near> findTouched(const PushState& state, Nanoseconds from,
                                             Nanoseconds to) const;
-  bool canReach(std::uint32_t plant, bool leans, const forest::Body& body, Nanoseconds from,
-                Nanoseconds to) const;
-  void step(std::uint32_t plant, const Near& near, Nanoseconds from, Nanoseconds to,
-            std::vector<Cluster>& clusters, std::vector<PushForce>& out) const;
+  bool canReach(std::uint32_t plant, const PushState& state, const forest::Body& body,
+                Nanoseconds from, Nanoseconds to) const;
+  void step(std::uint32_t plant, const Fibres& fibres, const Near& near, Nanoseconds from,
+            Nanoseconds to, std::vector<Cluster>& clusters, std::vector<PushForce>& out) const;
 
   const std::vector<PlantKind>& kinds_;
   const std::vector<Plant>& plants_;

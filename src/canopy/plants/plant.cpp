@@ -7,6 +7,7 @@
 
 #include "canopy/plants/crop.h"
 #include "canopy/plants/placing.h"
+#include "canopy/plants/stubble.h"
 #include "core/math/growth_stage.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
@@ -191,6 +192,12 @@ class Grower {
   GrownPlant out_;
 };
 
+GrownPlant growWhole(const PlantKind& kind, const Plant& plant) {
+  if (kind.shape == PlantShape::STALK) return growStalk(kind, plant);
+  if (kind.shape == PlantShape::TRELLIS) return buildTrellis(kind, plant);
+  return isRead(kind) ? placeForm(kind, plant) : Grower(kind, plant).grow();
+}
+
 }  // namespace
 
 void describe(FieldVisitor& v, PushLaw& l) {
@@ -240,10 +247,10 @@ PlantKind applyStage(const PlantKind& kind, double stage) {
   return out;
 }
 
-GrownPlant grow(const PlantKind& kind, const Plant& plant) {
-  if (kind.shape == PlantShape::STALK) return growStalk(kind, plant);
-  if (kind.shape == PlantShape::TRELLIS) return buildTrellis(kind, plant);
-  return isRead(kind) ? placeForm(kind, plant) : Grower(kind, plant).grow();
+GrownPlant grow(const PlantKind& kind, const Plant& plant, double height) {
+  GrownPlant out = growWhole(kind, plant);
+  if (height < UNCUT) cutOff(plant.position.z() + height, out);
+  return out;
 }
 
 std::size_t leafCount(const PlantKind& kind) {

@@ -32,12 +32,14 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
           {options_.frame_id, false,
            [this](const std::string& input, const std::string& why) { refusals_.add(input, why); }},
           options_.frame_wait),
+      cutters_(options_.frame_id, options_.cutters, tf_buffer_, options_.frame_wait),
       winds_(MOST_WINDS) {
   layout_publisher_ = handle_.advertise<CanopyLayout>("canopy/layout", 1, true);
   state_publisher_ = handle_.advertise<CanopyState>("canopy/state", 1000);
   contacts_publisher_ = handle_.advertise<PlantContacts>("canopy/contacts", 1000);
   publishLayout();
   start("canopy", "canopy/markers", markers_);
+  cutters_.clear();  // after a checkpoint: how the tools have moved since then is unknown
 }
 
 void CanopyAnimator::connect() {
@@ -47,6 +49,8 @@ void CanopyAnimator::connect() {
   if (options_.walkers && !options_.replay && !options_.scene.layout.plants.empty())
     people_.subscribe(handle_, "agents");
   serve("sample", &CanopyAnimator::onSample);
+  serve("cut", &CanopyAnimator::onCut);
+  serve("cutting", &CanopyAnimator::onCutting);
 }
 
 void CanopyAnimator::tick(std::int64_t tick) {
@@ -55,7 +59,10 @@ void CanopyAnimator::tick(std::int64_t tick) {
   begun_ = true;
   forgetViewer();
   updateCrowns();
-  if (!options_.replay) followBodies(tick);
+  if (!options_.replay) {
+    followBodies(tick);
+    followCutters(stamp);
+  }
   applyInputs(stamp);
   canopy_.advance(stamp);
   publishState(tick);
@@ -80,6 +87,11 @@ void CanopyAnimator::apply(CanopyEvent& event) {
     }
     case CanopyEvent::RESET:
       canopy_.reset();
+      cutters_.clear();
+      cuts_changed_ = true;
+      break;
+    case CanopyEvent::CUT:
+      applyCut(event);
       break;
     case CanopyEvent::BODY:
       canopy_.setBody(vegetation_sim::fromMsg(event.body));
@@ -88,8 +100,20 @@ void CanopyAnimator::apply(CanopyEvent& event) {
       canopy_.removeBody(event.body.id);
       break;
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 6");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 7");
   }
+}
+
+// Plants that another event of this tick has cut lower have no piece.
+void CanopyAnimator::applyCut(CanopyEvent& event) {
+  const std::vector<canopy::CutPiece> pieces = canopy_.cut(event.cut_plants, event.cut_height);
+  event.cut_plants.clear();
+  event.cut_lengths.clear();
+  for (const canopy::CutPiece& piece : pieces) {
+    event.cut_plants.push_back(piece.plant);
+    event.cut_lengths.push_back(piece.length);
+  }
+  cuts_changed_ = cuts_changed_ || !pieces.empty();
 }
 
 wind::Field CanopyAnimator::windOf(std::uint64_t hash) const {
@@ -100,7 +124,7 @@ wind::Field CanopyAnimator::windOf(std::uint64_t hash) const {
 
 bool CanopyAnimator::isOutdated(const CanopyEvent& event) const {
   return event.kind == CanopyEvent::VIEWER || event.kind == CanopyEvent::BODY ||
-         event.kind == CanopyEvent::REMOVE_BODY;
+         event.kind == CanopyEvent::REMOVE_BODY || event.kind == CanopyEvent::CUT;
 }
 
 // Layout, wind and settings stay in force.
@@ -109,6 +133,7 @@ void CanopyAnimator::restart() {
   canopy_.setViewer(std::nullopt);
   viewer_.reset();
   bodies_.clear();
+  cutters_.clear();
   people_.forgetLater(fromMsg(ros::Time::now()));
   begun_ = false;
   publishLayout();
@@ -119,6 +144,7 @@ void CanopyAnimator::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
+  cuts_changed_ = true;  // for replicas, which begin anew
 }
 
 std::shared_ptr<void> createCanopyAnimator(const ros::NodeHandle& handle,

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <std_srvs/SetBool.h>
 #include <vegetation_sim/CanopyEvent.h>
+#include <vegetation_sim/CutPlants.h>
 #include <vegetation_sim/SampleCanopy.h>
 #include <vegetation_sim/WindField.h>
 
@@ -16,6 +18,7 @@
 #include "nodes/bodies/robot_bodies.h"
 #include "nodes/canopy/canopy_options.h"
 #include "nodes/canopy/delayed_people.h"
+#include "nodes/cutters/cutter_follower.h"
 #include "nodes/markers/canopy_markers.h"
 #include "ros/replicas/hashed_cache.h"
 #include "ros/replicas/leafed_crowns.h"
@@ -44,10 +47,13 @@ class CanopyAnimator final
   void publishBeginning(Nanoseconds stamp);
   void updateCrowns();
   void followBodies(std::int64_t tick);
+  void followCutters(Nanoseconds stamp);
+  CanopyEvent cutEvent(const grass::CutArea& area) const;
 
   // Time.
   void tick(std::int64_t tick) override;
   void apply(CanopyEvent& event) override;
+  void applyCut(CanopyEvent& event);
   /// A wind received lately, or calm. @throws InvalidInput for any other hash.
   wind::Field windOf(std::uint64_t hash) const;
   void restart() override;
@@ -73,6 +79,8 @@ class CanopyAnimator final
 
   // Services.
   bool onSample(SampleCanopy::Request& request, SampleCanopy::Response& response);
+  bool onCut(CutPlants::Request& request, CutPlants::Response& response);
+  bool onCutting(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   CanopySample sampleAt(const Vec3& place);
 
   canopy::Canopy canopy_;
@@ -82,6 +90,8 @@ class CanopyAnimator final
   CanopyMarkers markers_;
   RobotBodies bodies_;
   DelayedPeople people_;  // who push plants
+  CutterFollower cutters_;
+  bool cuts_changed_{true};  // since the last state was sent
   std::size_t bodies_left_out_{0};
   bool had_bodies_{false};  // at the last tick
   HashedCache<wind::Field> winds_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nodes/canopy/canopy_animator.h"
+#include "nodes/canopy/plants_in_area.h"
 #include "nodes/canopy/pushing_bodies.h"
 #include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
@@ -16,6 +17,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double VIEWER_LIFE = 3.0;  // [s]
+constexpr double CUTTER_GATE = 0.3;  // of a tool without its own, as of grass_field [m]
 
 void check(CanopyTuning tuning) {
   Faults faults;
@@ -83,6 +85,31 @@ void CanopyAnimator::followBodies(std::int64_t tick) {
       event.body = vegetation_sim::toMsg(change.body);
     inputs_.addFirst(event);
   }
+}
+
+// A replay gets the plants of an area from the event.
+CanopyEvent CanopyAnimator::cutEvent(const grass::CutArea& area) const {
+  CanopyEvent out;
+  out.kind = CanopyEvent::CUT;
+  out.cut_height = area.height;
+  for (const std::uint32_t plant : plantsIn(canopy_.layout().plants, area))
+    if (canopy_.canCut(plant, area.height)) out.cut_plants.push_back(plant);
+  return out;
+}
+
+void CanopyAnimator::followCutters(Nanoseconds stamp) {
+  std::vector<grass::CutArea> areas =
+      cutters_.update(stamp, *options_.scene.terrain, CUTTER_GATE, grass::TreadSettings());
+  // The last one that is added is applied first.
+  std::reverse(areas.begin(), areas.end());
+  for (const grass::CutArea& area : areas)
+    acceptInput("cutter", [&] {
+      Faults faults;
+      check(area, "cutter: ", faults);
+      faults.throwIfAny();
+      const CanopyEvent event = cutEvent(area);
+      if (!event.cut_plants.empty()) inputs_.addFirst(event);
+    });
 }
 
 // Layers are cut for one viewer (S3-W8): the one that is named, or else the first that is present.

@@ -8,7 +8,9 @@ namespace vegetation_sim {
 
 void CanopyAnimator::publishState(std::int64_t tick) {
   if (state_publisher_.getNumSubscribers() == 0) return;
-  CanopyState message = toMsg(canopy_.update(tick % clock_.grid().rate() == 0));
+  const bool hashed = tick % clock_.grid().rate() == 0;
+  CanopyState message = toMsg(canopy_.update(hashed, hashed || cuts_changed_));
+  cuts_changed_ = false;
   message.header.frame_id = options_.frame_id;
   state_bytes_ += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
@@ -34,8 +36,10 @@ std::vector<Viewpoint> CanopyAnimator::markerViewers(Nanoseconds) {
 
 void CanopyAnimator::addDiagnostics(Status& status) {
   bodies_.missing().warn(name_, status);
+  cutters_.missing().warn(name_, status);
   status.add("Frames of bodies without a transform", bodies_.missing().size());
-  status.add("Transforms too late for their tick", bodies_.late());
+  status.add("Cutters without a position", cutters_.missing().size());
+  status.add("Transforms too late for their tick", bodies_.late() + cutters_.late());
   for (const std::string& link : options_.robot.left_out)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
   status.add("Bodies", canopy_.bodies().size());
@@ -45,6 +49,7 @@ void CanopyAnimator::addDiagnostics(Status& status) {
   warnOfMore(status, canopy_.refusedPushes(), reported_refused_,
              "times a plant did not lean: too many cells do");
   reported_refused_ = canopy_.refusedPushes();
+  status.add("Plants that have been cut", canopy_.snapshot().push.stubble.size());
   status.add("Plants", canopy_.layout().plants.size());
   status.add("Leaves", canopy_.layout().leafCount());
   std::size_t crown_leaves = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nodes/canopy/canopy_animator.h"
+#include "nodes/cutters/cut_request.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -61,6 +62,31 @@ bool CanopyAnimator::onSample(SampleCanopy::Request& request, SampleCanopy::Resp
     response.layers = static_cast<std::uint8_t>(canopy_.foliage().layers());
     return std::to_string(response.samples.size()) + " samples";
   });
+}
+
+bool CanopyAnimator::onCut(CutPlants::Request& request, CutPlants::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    CanopyEvent event = cutEvent(areaOf(request.cut, poseOf(request.header.frame_id)));
+    event.header.stamp = effectOf(request.header.stamp, clock_);
+    response.plants = static_cast<std::uint32_t>(event.cut_plants.size());
+    if (event.cut_plants.empty()) return "no plant is cut";
+    enqueue(std::move(event));
+    return "takes effect at the next tick";
+  });
+}
+
+// The cuts of a replay are recorded.
+bool CanopyAnimator::onCutting(std_srvs::SetBool::Request& request,
+                               std_srvs::SetBool::Response& response) {
+  response.success = !options_.replay;
+  response.message = options_.replay ? "a replay follows its recorded events only"
+                     : request.data  ? "cutters are on"
+                                     : "cutters are off";
+  if (options_.replay) return true;
+  cutters_.setEnabled(request.data != 0);
+  checkpointNow();  // no event shows it
+  return true;
 }
 
 }  // namespace vegetation_sim

@@ -38,6 +38,8 @@ void CanopyAnimator::writeState(Archive& a) const {
   archive(a, viewer);
   RobotBodies::Seen bodies = bodies_.seen();
   RobotBodies::archive(a, bodies);
+  CutterFollower::State cutters = cutters_.state();
+  CutterFollower::archive(a, cutters);
 }
 
 CheckedState CanopyAnimator::readState(Archive& a) {
@@ -49,6 +51,8 @@ CheckedState CanopyAnimator::readState(Archive& a) {
   archive(a, viewer);
   RobotBodies::Seen bodies;
   RobotBodies::archive(a, bodies);
+  CutterFollower::State cutters;
+  CutterFollower::archive(a, cutters);
   const canopy::Motion motion =
       withTuning(canopy_.layout().motion, fromNamedValues<CanopyTuning>(named));
   const canopy::Canopy::Archived read = canopy_.readArchived(std::move(state), a.shift());
@@ -63,6 +67,7 @@ CheckedState CanopyAnimator::readState(Archive& a) {
             winds_.keep(read.wind.hash(), read.wind);
             viewer_ = viewer;
             bodies_.restore(bodies);
+            cutters_.restore(cutters);
             people_.forgetLater(read.snapshot.stamp);
             begun_ = true;
             publishLayout();

@@ -108,7 +108,9 @@ CanopyScene loadCanopyScene(const std::string& name) {
   SceneFile file(name, out);
   file.loadTerrain();
   if (file.has("canopy")) {
-    out.layout = canopy::readLayout(file.section("canopy"), *out.terrain, out.seed, file.faults());
+    YamlSection section = file.section("canopy");
+    out.cutters = readCutters(section);
+    out.layout = canopy::readLayout(std::move(section), *out.terrain, out.seed, file.faults());
     Faults forms;
     loadForms(out.layout, file.folder(), forms);
     if (forms.empty() && file.faults().empty()) canopy::check(out.layout, forms);
@@ -131,6 +133,11 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
     if (part.id.rfind(WALKER_PREFIX, 0) == 0)
       parameters.faults().add("~bodies: id = " + part.id + " begins with " + WALKER_PREFIX +
                               ", as the ids of people do");
+  out.cutters = out.scene.cutters;
+  if (YAML::Node list; parameters.list("cutters", list)) {
+    YamlSection section(list, private_handle.getNamespace(), parameters.faults());
+    out.cutters = readCutters(section);
+  }
   canopy::Layout& layout = out.scene.layout;
   CanopyTuning tuning = tuningOf(layout.motion);
   describe(parameters, tuning);

@@ -9,6 +9,7 @@
 
 #include "nodes/base/node_options.h"
 #include "nodes/bodies/robot_bodies.h"
+#include "nodes/cutters/followed_cutter.h"
 #include "ros/params/scene_file.h"
 #include "vegetation_sim/canopy/canopy_layout.h"
 
@@ -33,6 +34,7 @@ void toConfig(const CanopyTuning& tuning, CanopyAnimatorConfig& config);
 /// The plants of a scenario file.
 struct CanopyScene : SceneBase {
   canopy::Layout layout;
+  std::vector<FollowedCutter> cutters;
 };
 /// No file or no `canopy` in it gives no plants. @throws InvalidInput with all faults of the file.
 CanopyScene loadCanopyScene(const std::string& name);
@@ -43,6 +45,7 @@ struct CanopyOptions : NodeOptions {
   double frame_wait{0.0};  ///< for the transforms of bodies at a tick [s]
   bool walkers{true};      ///< whether the people on `agents` push plants
   RobotParts robot;        ///< bodies that push plants
+  std::vector<FollowedCutter> cutters;
   CanopyScene scene;
 };
 void describe(FieldVisitor& visitor, CanopyOptions& options);

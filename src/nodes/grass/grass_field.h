@@ -19,8 +19,8 @@
 
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
+#include "nodes/cutters/cutter_follower.h"
 #include "nodes/grass/grass_cover.h"
-#include "nodes/grass/grass_cutters.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
 #include "nodes/markers/grass_markers.h"
@@ -92,7 +92,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
   GrassSources sources_;
-  GrassCutters cutters_;
+  CutterFollower cutters_;
   GrassCover ground_;  // of the cover map, once it is wanted
 
   static constexpr const char* PATH = "path_";

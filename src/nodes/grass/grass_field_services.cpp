@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "grass/lod/node_wind.h"
+#include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -167,16 +168,7 @@ bool GrassField::onSample(SampleGrass::Request& request, SampleGrass::Response& 
 bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    grass::CutArea area = fromMsg(request.cut, "");
-    const Pose to_world = poseOf(request.header.frame_id);
-    for (auto* outline : {&area.outline, &area.swath})
-      for (grass::Point& point : *outline) {
-        const Vec3 p = transformed(to_world, Vec3(point.x, point.y, 0.0));
-        point = {p.x(), p.y()};
-      }
-    Faults faults;
-    check(area, "in the world frame: ", faults);
-    faults.throwIfAny();
+    const grass::CutArea area = areaOf(request.cut, poseOf(request.header.frame_id));
     field_->checkCut(area);
     GrassEvent event;
     event.kind = GrassEvent::CUT;

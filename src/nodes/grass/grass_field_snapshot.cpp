@@ -30,8 +30,8 @@ void GrassField::writeState(Archive& a) const {
   a.integer("paths", paths);
   GrassSources::Published sources = sources_.published();
   GrassSources::archive(a, sources);
-  GrassCutters::State cutters = cutters_.state();
-  GrassCutters::archive(a, cutters);
+  CutterFollower::State cutters = cutters_.state();
+  CutterFollower::archive(a, cutters);
 }
 
 CheckedState GrassField::readState(Archive& a) {
@@ -45,8 +45,8 @@ CheckedState GrassField::readState(Archive& a) {
   a.integer("paths", paths);
   GrassSources::Published sources;
   GrassSources::archive(a, sources);
-  GrassCutters::State cutters;
-  GrassCutters::archive(a, cutters);
+  CutterFollower::State cutters;
+  CutterFollower::archive(a, cutters);
   const grass::TreadSnapshot read = field_->readArchived(std::move(state), a.shift());
   return {read.hash(), [=] {
             applyTuning(tuning);

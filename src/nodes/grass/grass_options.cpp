@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "nodes/cutters/followed_place.h"
 #include "ros/services/frame_lookup.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -29,17 +29,6 @@ TreadLaw readLaw(YamlSection& section) {
   return out;
 }
 
-// Reads where a source or a cutter is in its frame.
-template <class Followed>
-void readPlace(YamlSection& section, Followed& out) {
-  if (!out.frame.empty() && out.frame[0] == '/')
-    section.fault("frame", "= '" + out.frame + "' begins with '/'");
-  section.vector("offset", out.offset, "m", {-100.0, 100.0});
-  double height_gate = 0.0;
-  section.number("height_gate", height_gate, "m", {0.0, 1000.0});
-  if (section.has("height_gate")) out.height_gate = height_gate;
-}
-
 FollowedSource readSource(YamlSection& section) {
   FollowedSource out;
   section.text("frame", out.frame);
@@ -50,34 +39,6 @@ FollowedSource readSource(YamlSection& section) {
   readPlace(section, out);
   out.law = readLaw(section);
   section.finish();
-  return out;
-}
-
-FollowedCutter readCutter(YamlSection& section) {
-  FollowedCutter out;
-  section.text("frame", out.frame);
-  out.name = out.frame;
-  section.text("name", out.name);
-  if (out.frame.empty()) section.fault("frame", "is missing");
-  readPlace(section, out);
-  describe(section, out.cutter);
-  section.finish();
-  return out;
-}
-
-// Reads a list of sources or cutters, whose names are unique.
-template <class Item>
-std::vector<Item> readFollowed(YamlSection& section, const char* key, Item (*read)(YamlSection&)) {
-  std::vector<Item> out;
-  std::set<std::string> names;
-  for (YamlSection& entry : section.sections(key)) {
-    out.push_back(read(entry));
-    if (!names.insert(out.back().name).second)
-      section.fault(key, "names '" + out.back().name + "' twice");
-  }
-  if (out.size() > MOST_FOLLOWED_SOURCES)
-    section.fault(key, "are " + std::to_string(out.size()) + ", allowed are " +
-                           std::to_string(MOST_FOLLOWED_SOURCES));
   return out;
 }
 
@@ -171,7 +132,7 @@ GrassScene loadGrassScene(const std::string& name) {
     YamlSection section = file.section("grass");
     out.grass = grass::readScene(section, file.folder(), out.seed, file.faults());
     out.sources = readFollowed(section, "sources", readSource);
-    out.cutters = readFollowed(section, "cutters", readCutter);
+    out.cutters = readCutters(section);
     section.finish();
   } else {
     grass::MapInput bare;
@@ -201,7 +162,7 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle) {
   }
   if (parameters.list("cutters", list)) {
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
-    out.cutters = readFollowed(section, "cutters", readCutter);
+    out.cutters = readCutters(section);
   }
   if (parameters.faults().empty()) checkCover(out, parameters);
   if (parameters.faults().empty()) grass::check(out.tuning.tread, "tread_", parameters.faults());

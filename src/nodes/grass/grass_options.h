@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "grass/lod/meadow_lod.h"
-#include "grass/tread/cutter.h"
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
+#include "nodes/cutters/followed_cutter.h"
 #include "nodes/grass/grass_cover.h"
 #include "ros/params/scene_file.h"
 
@@ -41,16 +41,6 @@ struct FollowedSource {
   Vec3 offset{Vec3::Zero()};          ///< in the frame, or in the odometry's child frame [m]
   std::optional<double> height_gate;  ///< none: the node's [m]
   TreadLaw law;                       ///< numbers without their flags are the node's
-};
-constexpr std::size_t MOST_FOLLOWED_SOURCES = 256;
-
-/// A cutting tool that the node finds by itself.
-struct FollowedCutter {
-  std::string name;
-  std::string frame;                  ///< tf frame, whose x axis is the heading
-  Vec3 offset{Vec3::Zero()};          ///< of the middle of the footprint in that frame [m]
-  std::optional<double> height_gate;  ///< none: the node's [m]
-  grass::Cutter cutter;
 };
 
 /// The meadow of a scenario file.

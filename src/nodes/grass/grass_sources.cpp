@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "nodes/cutters/followed_place.h"
 #include "ros/conversions/orientation.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -71,7 +72,7 @@ void GrassSources::restore(const Published& published) {
 
 void GrassSources::archive(Archive& a, Published& published) {
   a.map(
-      "followed sources", published, MOST_FOLLOWED_SOURCES, TREAD_BYTES,
+      "followed sources", published, MOST_FOLLOWED, TREAD_BYTES,
       [&a](std::string& name) { a.text("followed source", name, LONGEST_NAME); },
       [&a](const std::string&, LastTread& last) {
         a.vector("position of a source", last.position);

@@ -76,12 +76,16 @@ CanopyMarkers::CanopyMarkers(canopy::Canopy& canopy, const LeafedCrowns& crowns,
   shareLeaves();
   setLadders();
   for (std::size_t id = 0; id < plants_.size(); ++id) {
-    const canopy::Plant& plant = layout_.plants[id];
-    addShade(plant, 0.9 * plant.scale * layout_.kinds[plant.kind].radius);
-    canopy::GrownPlant grown = canopy::grow(layout_.kinds[plant.kind], plant);
-    wood_.push_back({std::move(grown.stems), std::move(grown.rigid)});
+    wood_.push_back(woodOf(id));
     addWood(id);
   }
+  addShades();
+}
+
+CanopyMarkers::Wood CanopyMarkers::woodOf(std::size_t id) const {
+  const canopy::Plant& plant = layout_.plants[id];
+  canopy::GrownPlant grown = canopy::grow(layout_.kinds[plant.kind], plant, plants_[id].height);
+  return {std::move(grown.stems), std::move(grown.rigid)};
 }
 
 // Divides the points of leaves between plants and crowns.
@@ -151,10 +155,25 @@ void CanopyMarkers::addWood(std::size_t id) {
   }
 }
 
-// Wood is built anew only while bodies push plants.
-void CanopyMarkers::bendWood() {
+// Grows the plants again whose cuts have changed. Returns whether there are any.
+bool CanopyMarkers::updateCuts() {
+  bool changed = false;
+  for (std::size_t id = 0; id < plants_.size(); ++id) {
+    const double height = canopy_.foliage().cutHeight(id);
+    if (plants_[id].height == height) continue;
+    plants_[id].height = height;
+    plants_[id] = drawPlant(id, plants_[id].tier);
+    wood_[id] = woodOf(id);
+    changed = true;
+  }
+  return changed;
+}
+
+// Wood is built anew only while bodies push plants, and when plants have been cut.
+void CanopyMarkers::bendWood(bool cut) {
   const bool bent = canopy_.foliage().anyBent();
-  if (bent || bent_) {
+  if (cut) addShades();
+  if (cut || bent || bent_) {
     lists_.clear(STEMS);
     for (std::size_t id = 0; id < plants_.size(); ++id) addWood(id);
   }
@@ -199,8 +218,9 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(std::size_t id, int tier) con
   const double share = shares_[static_cast<std::size_t>(tier)];
   DrawnPlant out;
   out.tier = tier;
+  out.height = plants_[id].height;
   if (share <= 0.0) return out;
-  const canopy::GrownPlant grown = canopy::grow(kind, layout_.plants[id]);
+  const canopy::GrownPlant grown = canopy::grow(kind, layout_.plants[id], out.height);
   const auto count = static_cast<std::size_t>(share * static_cast<double>(grown.leaves.size()));
   for (std::size_t i = 0; i < count; ++i) {
     Drawn drawn{grown.leaves[i], opaque(leafColour(kind, grown.leaves[i]))};
@@ -208,6 +228,17 @@ CanopyMarkers::DrawnPlant CanopyMarkers::drawPlant(std::size_t id, int tier) con
     out.leaves.push_back(drawn);
   }
   return out;
+}
+
+// Adds the shade of each plant, which is smaller the lower the plant has been cut.
+void CanopyMarkers::addShades() {
+  lists_.clear(SHADE);
+  for (std::size_t id = 0; id < plants_.size(); ++id) {
+    const canopy::Plant& plant = layout_.plants[id];
+    const canopy::PlantKind& kind = layout_.kinds[plant.kind];
+    const double top = plant.scale * kind.height;
+    addShade(plant, 0.9 * plant.scale * kind.radius * std::min(1.0, plants_[id].height / top));
+  }
 }
 
 // Adds a disc of darker ground under a plant, transparent at its rim.
@@ -257,6 +288,7 @@ void CanopyMarkers::addCrowns(const canopy::Foliage& foliage, Nanoseconds stamp)
 }
 
 void CanopyMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
+  const bool cut = updateCuts();
   choose(viewers, stamp);
   lists_.clear(LEAVES);
   lists_.clear(CROWNS);
@@ -265,7 +297,7 @@ void CanopyMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds sta
     for (const Drawn& drawn : plants_[plant].leaves)
       addLeaf(LEAVES, drawn, foliage.move(drawn.leaf, plant));
   addCrowns(foliage, stamp);
-  bendWood();
+  bendWood(cut);
 }
 
 }  // namespace vegetation_sim

@@ -41,6 +41,7 @@ class CanopyMarkers : public MarkerBuilder {
   };
   struct DrawnPlant {
     int tier{0};
+    double height{canopy::UNCUT};  // of the cut [m]
     std::vector<Drawn> leaves;
   };
   /// Parts of a plant that wind does not move, at rest.
@@ -55,7 +56,10 @@ class CanopyMarkers : public MarkerBuilder {
   void shareLeaves();
   void setLadders();
   void addWood(std::size_t id);
-  void bendWood();
+  Wood woodOf(std::size_t id) const;
+  void bendWood(bool cut);
+  bool updateCuts();
+  void addShades();
   /// Returns how many leaves of a crown are drawn. They are its first ones.
   std::size_t drawnOf(std::size_t leaves) const;
   void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);

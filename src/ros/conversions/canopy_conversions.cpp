@@ -91,6 +91,12 @@ CanopyState toMsg(const canopy::StateUpdate& update) {
     out.lean_x.push_back(bent.x);
     out.lean_y.push_back(bent.y);
   }
+  out.lists_cuts = update.stubble.has_value();
+  if (update.stubble)
+    for (const auto& [plant, height] : *update.stubble) {
+      out.cut_plants.push_back(plant);
+      out.cut_heights.push_back(height);
+    }
   out.layout_hash = update.layout_hash;
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
@@ -116,6 +122,12 @@ canopy::StateUpdate fromMsg(const CanopyState& message) {
     if (size != count)
       faults.add(std::string("state: ") + name + " has " + std::to_string(size) +
                  " entries, bent_plants has " + std::to_string(count));
+  if (message.cut_heights.size() != message.cut_plants.size())
+    faults.add("state: cut_heights has " + std::to_string(message.cut_heights.size()) +
+               " entries, cut_plants has " + std::to_string(message.cut_plants.size()));
+  if (message.cut_plants.size() > canopy::MOST_PLANTS)
+    faults.add("state: cut_plants has " + std::to_string(message.cut_plants.size()) +
+               " entries, allowed are " + std::to_string(canopy::MOST_PLANTS));
   const std::string fault = rangeFault("state: front_share", message.front_share, "", {0.0, 1.0});
   if (!fault.empty()) faults.add(fault);
   faults.throwIfAny();
@@ -124,6 +136,11 @@ canopy::StateUpdate fromMsg(const CanopyState& message) {
   for (std::size_t i = 0; i < count; ++i)
     out.bent.push_back(
         {message.bent_plants[i], message.bent_cells[i], message.lean_x[i], message.lean_y[i]});
+  if (message.lists_cuts) {
+    out.stubble.emplace();
+    for (std::size_t i = 0; i < message.cut_plants.size(); ++i)
+      (*out.stubble)[message.cut_plants[i]] = message.cut_heights[i];
+  }
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;

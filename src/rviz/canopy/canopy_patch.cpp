@@ -61,16 +61,21 @@ void setNormal(const Vec3& normal, VertexPaint& paint) {
 
 }  // namespace
 
-CanopyPatch::CanopyPatch(const canopy::Layout& layout, const std::vector<std::size_t>& plants,
+CanopyPatch::CanopyPatch(const canopy::Replica& canopy, const std::vector<std::size_t>& plants,
                          const Vec3& origin, Ogre::SceneNode& node,
                          const std::string& leaf_material, const std::string& stem_material,
                          const Vec3& to_sun)
-    : origin_(origin),
+    : plants_(plants),
+      origin_(origin),
       leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
       stem_batch_(uniqueName("canopy_stems"), stem_material) {
+  const canopy::Layout& layout = canopy.layout();
   for (const std::size_t plant : plants)
     middle_ += layout.plants[plant].position / static_cast<double>(plants.size());
-  for (const std::size_t plant : plants) grow(layout, plant);
+  for (const std::size_t plant : plants) {
+    heights_.push_back(canopy.cutHeight(plant));
+    grow(layout, plant, heights_.back());
+  }
   finish(layout, node, to_sun);
 }
 
@@ -102,6 +107,12 @@ void CanopyPatch::finish(const canopy::Layout& layout, Ogre::SceneNode& node, co
   node.attachObject(&stem_batch_);
 }
 
+bool CanopyPatch::isOutdated(const canopy::Replica& canopy) const {
+  for (std::size_t i = 0; i < plants_.size(); ++i)
+    if (canopy.cutHeight(plants_[i]) != heights_[i]) return true;
+  return false;
+}
+
 void CanopyPatch::setRank(int rank) {
   leaf_batch_.setRank(rank);
   stem_batch_.setRank(rank);
@@ -109,10 +120,10 @@ void CanopyPatch::setRank(int rank) {
 
 // Leaves are ordered by the share of their plant that is farther out, so that the first leaves are
 // an even part of all plants. Ribbons keep their order.
-void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant) {
+void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double height) {
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
-  const canopy::GrownPlant grown = canopy::grow(kind, p);
+  const canopy::GrownPlant grown = canopy::grow(kind, p, height);
   const std::size_t count = grown.leaves.size();
   std::vector<std::pair<double, std::size_t>> sorted;
   for (std::size_t i = 0; i < count; ++i)

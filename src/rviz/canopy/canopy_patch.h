@@ -12,7 +12,7 @@
 #include "rviz/render/batch.h"
 #include "rviz/textures/foliage_texture.h"
 #include "rviz/textures/sky_texture.h"
-#include "vegetation_sim/canopy/leaf_motion.h"
+#include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim::view {
 
@@ -22,7 +22,7 @@ namespace vegetation_sim::view {
 class CanopyPatch {
  public:
   /// @param plants ids in the layout. @param node with its frame at `origin` [m].
-  CanopyPatch(const canopy::Layout& layout, const std::vector<std::size_t>& plants,
+  CanopyPatch(const canopy::Replica& canopy, const std::vector<std::size_t>& plants,
               const Vec3& origin, Ogre::SceneNode& node, const std::string& leaf_material,
               const std::string& stem_material, const Vec3& to_sun);
   /// Builds the leaves of a crown without its wood. @param number of the crown.
@@ -33,6 +33,9 @@ class CanopyPatch {
   /// Number of the crown; without a value for plants.
   const std::optional<std::size_t>& crown() const { return crown_; }
   std::size_t leafCount() const { return leaves_.size(); }
+  const std::vector<std::size_t>& plants() const { return plants_; }
+  /// Returns whether plants have been cut, or restored, since the patch was made.
+  bool isOutdated(const canopy::Replica& canopy) const;
   const Vec3& middle() const { return middle_; }
   double reach() const { return reach_; }         ///< [m] radius around the middle
   double tallest() const { return tallest_; }     ///< [m] height of the tallest plant
@@ -62,7 +65,7 @@ class CanopyPatch {
     LeafCut cut;
     float order;  // leaves are drawn in rising order
   };
-  void grow(const canopy::Layout& layout, std::size_t plant);
+  void grow(const canopy::Layout& layout, std::size_t plant, double height);
   void finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun);
   template <class Mover>
   void moveBy(const Mover& mover, std::size_t count);
@@ -73,6 +76,8 @@ class CanopyPatch {
   void build(const canopy::Layout& layout, const Vec3& to_sun);
 
   std::optional<std::size_t> crown_;
+  std::vector<std::size_t> plants_;
+  std::vector<double> heights_;  // at which the plants have been cut [m]
   Vec3 origin_, middle_{Vec3::Zero()};
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;

@@ -54,7 +54,8 @@ double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
 
 CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy,
                            const Vec3& to_sun)
-    : node_(parent.createChildSceneNode()),
+    : to_sun_(to_sun),
+      node_(parent.createChildSceneNode()),
       leaf_texture_(uniqueName("foliage_picture"), sharedFoliage()),
       stem_texture_(uniqueName("stem_picture"), sharedStems()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
@@ -69,9 +70,7 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
   extent_ = {origin_, origin_};
   node_->setPosition(static_cast<float>(origin_.x()), static_cast<float>(origin_.y()),
                      static_cast<float>(origin_.z()));
-  for (const auto& [cell, plants] : cellsOf(layout))
-    add(std::make_unique<CanopyPatch>(layout, plants, origin_, *node_, leaf_material_.name(),
-                                      stem_material_.name(), to_sun));
+  for (const auto& [cell, plants] : cellsOf(layout)) add(patchOf(*canopy.replica(), plants));
   for (std::size_t i = 0; i < crowns.size(); ++i)
     add(std::make_unique<CanopyPatch>(layout, crowns[i], i, origin_, *node_, leaf_material_.name(),
                                       stem_material_.name(), to_sun));
@@ -85,6 +84,22 @@ void CanopyVisual::add(std::unique_ptr<CanopyPatch> patch) {
   extent_.high = extent_.high.cwiseMax(patch->middle() + around);
   report_.leaves += patch->leafCount();
   patches_.push_back(std::move(patch));
+}
+
+std::unique_ptr<CanopyPatch> CanopyVisual::patchOf(const canopy::Replica& canopy,
+                                                   const std::vector<std::size_t>& plants) const {
+  return std::make_unique<CanopyPatch>(canopy, plants, origin_, *node_, leaf_material_.name(),
+                                       stem_material_.name(), to_sun_);
+}
+
+// Makes the patches anew in which plants have been cut.
+void CanopyVisual::updateCuts(const canopy::Replica& canopy) {
+  for (std::unique_ptr<CanopyPatch>& patch : patches_) {
+    if (!patch->isOutdated(canopy)) continue;
+    report_.leaves -= patch->leafCount();
+    patch = patchOf(canopy, patch->plants());
+    report_.leaves += patch->leafCount();
+  }
 }
 
 CanopyVisual::~CanopyVisual() {
@@ -120,6 +135,7 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
   stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
+  updateCuts(*canopy.replica());
   const canopy::Foliage& foliage = canopy.replica()->foliage();
   const std::vector<CanopyPatch*> seen = inPicture(view, foliage.anyBent());
   double wanted = 0.0;

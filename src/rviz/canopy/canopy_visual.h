@@ -53,8 +53,12 @@ class CanopyVisual {
 
  private:
   void add(std::unique_ptr<CanopyPatch> patch);
+  std::unique_ptr<CanopyPatch> patchOf(const canopy::Replica& canopy,
+                                       const std::vector<std::size_t>& plants) const;
+  void updateCuts(const canopy::Replica& canopy);
   std::vector<CanopyPatch*> inPicture(const View& view, bool bent) const;
 
+  Vec3 to_sun_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Vec3 origin_{Vec3::Zero()};
   Texture leaf_texture_, stem_texture_;

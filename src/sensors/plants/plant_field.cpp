@@ -52,7 +52,9 @@ void Plants::update(const canopy::Layout& layout, std::uint64_t layout_hash,
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
     for (std::size_t i = first; i < chosen.size(); i += parts) {
-      if (!plants[i]) plants[i] = std::make_shared<PosedPlant>(layout, chosen[i]);
+      const double height = foliage.cutHeight(chosen[i]);
+      if (!plants[i] || plants[i]->cutHeight() != height)
+        plants[i] = std::make_shared<PosedPlant>(layout, chosen[i], height);
       plants[i]->pose(foliage);
     }
   });

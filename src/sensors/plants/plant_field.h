@@ -33,7 +33,7 @@ class Plants {
   }
 
   const std::vector<std::shared_ptr<PosedPlant>>& all() const { return plants_.all(); }
-  /// Returns the number of leaves and faces.
+  /// Returns the number of leaves and faces that the plants have uncut.
   std::size_t leaves() const { return leaves_; }
   /// Returns the number of plants that exceeded the limit in the last update().
   std::size_t leftOut() const { return left_out_; }

@@ -27,12 +27,12 @@ Rod rodOf(const Vec3& from, const Vec3& to, double radius) {
 
 }  // namespace
 
-PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id)
-    : id_(id), foot_(layout.plants[id].position) {
+PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height)
+    : id_(id), cut_height_(height), foot_(layout.plants[id].position) {
   const canopy::Plant& plant = layout.plants[id];
   const canopy::PlantKind& kind = layout.kinds[plant.kind];
   paint_ = {kind.colour, kind.colour_young, kind.stem_colour};
-  canopy::GrownPlant grown = canopy::grow(kind, plant);
+  canopy::GrownPlant grown = canopy::grow(kind, plant, height);
   leaves_ = std::move(grown.leaves);
   rigid_ = std::move(grown.rigid);
   grown_stems_ = std::move(grown.stems);

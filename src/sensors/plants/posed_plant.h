@@ -16,13 +16,14 @@ namespace vegetation_sim::scan {
 /// leaves move, and a rod per stem. Where bodies push the plant, all parts move.
 class PosedPlant {
  public:
-  /// Grows the plant.
-  PosedPlant(const canopy::Layout& layout, std::uint32_t id);
+  /// Grows the plant. @param height at which it has been cut [m].
+  PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height = canopy::UNCUT);
 
   /// Moves all leaves with their layers, and all parts with their fibres.
   void pose(const canopy::Foliage& foliage);
 
   std::uint32_t id() const { return id_; }
+  double cutHeight() const { return cut_height_; }
   /// Colours of the kind of the plant in sRGB.
   struct Paint {
     Vec3 leaf, young, stem;
@@ -47,6 +48,7 @@ class PosedPlant {
   void bendWood(const canopy::Foliage& foliage);
 
   std::uint32_t id_;
+  double cut_height_;
   Vec3 foot_;  ///< world [m]
   Paint paint_;
   std::vector<canopy::Leaf> leaves_, rigid_;  ///< at rest

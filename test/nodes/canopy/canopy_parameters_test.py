@@ -28,7 +28,7 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
           'frame_id', 'viewer_id', 'viewer_frame', 'replay', 'walkers',
-          'bodies'}  # robot_bodies_test has more tests of bodies
+          'bodies', 'cutters'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -55,6 +55,7 @@ SCENARIOS = [
     ('{canopy: {kinds: [{name: a, shape: trellis, slope: 3}]}}', 'slope = 3 is outside -2 to 2'),
     ('{canopy: {kinds: [{name: a}], rows: [{kind: a, plant_spacing: 0}]}}',
      'rows[0]: plant_spacing = 0 m is outside 0.01 to 1000 m'),
+    ('{canopy: {cutters: [{width: 0.2}]}}', 'cutters[0]: frame is missing'),
     ('{terrain: nowhere.yaml, canopy: {}}', '/nowhere.yaml: cannot be read'),
     ('{canopy', 'not YAML'),
 ]
@@ -76,6 +77,13 @@ class CanopyParameters(Ranges, RefusingNode):
         self.assertIn('~bodies: id = walker_3 begins with walker_', self.refusal({'bodies': [person]}))
         none = {'near_layers': 0, 'mid_layers': 0, 'far_layers': 0}
         self.assertIn('= 0 is outside 1 to 16', self.refusal(none))
+
+    def test_bad_cutters_are_rejected(self):
+        for cutters, text in (
+                ([{'frame': 'a', 'height': 6}], 'cutters[0]: height = 6 m is outside 0 to 5 m'),
+                ([{'frame': 'a', 'shape': 'saw'}], "cutters[0]: shape = 'saw' is none of box, disc"),
+                ([{'frame': 'a'}, {'frame': 'a'}], "cutters names 'a' twice")):
+            self.assertIn(text, self.refusal({'cutters': cutters}))
 
     def test_each_bad_scenario_is_refused_by_file_and_key(self):
         for scenario, words in SCENARIOS:

@@ -106,6 +106,35 @@ TEST(CanopyMarkers, PlantsLeanAwayFromABody) {
   for (const std::size_t list : {0, 1}) EXPECT_EQ(again[list].points, upright[list].points);
 }
 
+TEST(CanopyMarkers, WhatIsCutOffIsGone) {
+  Row row(2);
+  canopy::Canopy canopy(row.layout);
+  CanopyMarkers markers(canopy, row.crowns, row.forest, 20000, 1.0);
+  const auto build = [&] {
+    markers.build({row.viewer}, 0);
+    return markers.lists().message("map").markers;
+  };
+  // Returns the highest point of a plant in a list.
+  const auto topOf = [](const visualization_msgs::Marker& list, bool second) {
+    double out = 0.0;
+    for (const geometry_msgs::Point& point : list.points)
+      if ((point.x > 6.0) == second) out = std::max(out, point.z);
+    return out;
+  };
+  const auto whole = build();
+  canopy.cut({0}, 0.5);
+  const auto cut = build();
+  for (const std::size_t list : {0, 1}) {
+    EXPECT_GT(topOf(whole[list], false), 1.2);
+    EXPECT_GT(topOf(cut[list], false), 0.3);
+    EXPECT_LT(topOf(cut[list], false), 0.6);  // leaves have a width
+    EXPECT_EQ(topOf(cut[list], true), topOf(whole[list], true));
+  }
+  canopy.reset();
+  const auto again = build();
+  for (const std::size_t list : {0, 1, 2}) EXPECT_EQ(again[list].points, whole[list].points);
+}
+
 // Faces of a mesh that never move are stems and do not count as leaves.
 TEST(CanopyMarkers, RigidFacesAreNotLeaves) {
   Row row(10);

@@ -91,6 +91,9 @@ REQUESTS = {
         (srv.SampleGrassRequest(points=[PLACE.point]), 'header', 'points.0.z')],
     '/grass_field/tread': [(srv.TreadRequest(points=[PLACE.point], law=LAW),
          'header.seq', 'points.0.z')],
+    '/canopy_animator/cut': [
+        (srv.CutPlantsRequest(cut=GrassCut(outline=[PLACE.point], radius=0.2, height=0.1)),
+         'header.seq', 'cut.outline.0.z')],
     '/canopy_animator/sample': [(srv.SampleCanopyRequest(points=[PLACE.point]), 'header')],
     '/agent_crowd/remove': [(srv.RemoveAgentsRequest(ids=[2]),)],
     '/agent_crowd/set_goal': [

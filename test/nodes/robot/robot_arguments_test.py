@@ -75,6 +75,14 @@ class RobotArguments(RefusingNode):
         self.expect_refused('grass_field', 'sources', 'height_gate = -1 m is outside', height_gate='-1')
         self.expect_refused('grass_field', 'sources', 'radios is not a known key', tread='radios: 1')
 
+    def test_cutters_are_those_of_both_nodes(self):
+        for node in 'grass_field', 'canopy_animator':
+            parameters = parameters_of(node, {'robot': 'a', 'cutters': '[{frame: bar, width: 2}]'})
+            self.assertEqual(parameters['cutters'], {'a': [{'frame': 'bar', 'width': 2}]})
+            self.assertNotIn('cutters', parameters_of(node, {}))
+            self.expect_refused(node, 'cutters', 'height = 7 m is outside 0 to 5 m',
+                                cutters='[{frame: bar, height: 7}]')
+
     def test_a_frame_that_begins_with_a_slash(self):
         for arguments in {'wheel_frames': 'left /right'}, {'prefix': '/', 'base_frame': 'right'}:
             self.expect_refused('grass_field', 'sources', "frame = '/right' begins with '/'",

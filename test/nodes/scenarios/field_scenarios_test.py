@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the scenarios of fields of the demo without rviz: a lidar between the rows sees the parts of
 their plants, each with its label and the id of its plant."""
+import contextlib
 import math
 import signal
 import subprocess
@@ -14,7 +15,7 @@ import rostest
 from geometry_msgs.msg import TransformStamped, Vector3
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import ScanReport
+from vegetation_sim.msg import CanopyLayout, CanopyState, ScanReport
 
 from scan_rig import cloud_of
 from waiting import DEADLINE
@@ -36,17 +37,20 @@ class FieldScenarios(unittest.TestCase):
         frame.transform.translation = Vector3(*place)
         frame.transform.rotation.w = 1.0
         self.mast.publish(TFMessage([frame]))
-        launch = subprocess.Popen(['roslaunch', 'vegetation_sim', 'field_scenario.launch',
-                                   'scenario:=' + scenario])
-        points = Log('/lidar/points', PointCloud2)
-        try:
+        with self.running(scenario), contextlib.closing(Log('/lidar/points', PointCloud2)) as points:
             message = points.wait(lambda all: next((m for m in all if labels <= set(cloud_of(m)['label'])), None),
                                   'a cloud of ' + scenario)
+        return cloud_of(message)
+
+    @contextlib.contextmanager
+    def running(self, scenario):
+        launch = subprocess.Popen(['roslaunch', 'vegetation_sim', 'field_scenario.launch',
+                                   'scenario:=' + scenario])
+        try:
+            yield
         finally:
-            points.close()
             launch.send_signal(signal.SIGINT)
             launch.wait(DEADLINE)
-        return cloud_of(message)
 
     def plants_of(self, cloud, labels):
         return {int(p['plant']) for p in cloud if p['label'] in labels}
@@ -76,6 +80,20 @@ class FieldScenarios(unittest.TestCase):
         stems = cloud[(cloud['label'] == ScanReport.STEM) & (abs(cloud['y']) < 0.7)]
         off = [math.remainder(y - 0.375, 0.75) for y in stems['y']]
         self.assertLess(max(map(abs, off)), 0.1)
+
+    # Both rows of the first lane are cut from its beginning on, and the row beside stands.
+    def test_a_mower_cuts_two_rows_of_maize(self):
+        with self.running('harvest'), contextlib.closing(Log('/canopy/layout', CanopyLayout)) as layout, \
+                contextlib.closing(Log('/canopy/state', CanopyState)) as states:
+            state = states.wait(lambda all: next((m for m in all if len(m.cut_plants) > 10), None),
+                                'cut maize')
+            plants = layout.wait(lambda all: all and all[-1].plants, 'the plants')
+        self.assertEqual(set(state.cut_heights), {0.12})
+        feet = [plants[plant].position for plant in state.cut_plants]
+        self.assertEqual({round((p.y + 4.125) / 0.75) for p in feet}, {0, 1})
+        end = max(p.x for p in feet) - 0.2
+        passed = {i for i, p in enumerate(plants) if p.position.x < end and p.position.y < -3.0}
+        self.assertLessEqual(passed, set(state.cut_plants))
 
 
 if __name__ == '__main__':

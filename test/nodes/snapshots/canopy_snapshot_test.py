@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Snapshots and checkpoints of canopy_animator: flow, leaves, wind and viewer."""
+"""Snapshots and checkpoints of canopy_animator: flow, leaves, wind, viewer and cut
+plants."""
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point
+from vegetation_sim.msg import GrassCut
+from vegetation_sim.srv import CutPlants
 
 from canopy_rig import Leaves
 from forest_rig import ViewerClient
@@ -29,6 +33,9 @@ class CanopySnapshot(SnapshotCase):
         if tick in (10, 40, 70):
             node.viewer.move_to(-5.0, 0.1 * tick, 1.5, node.client)
         if tick == 30:
+            disc = GrassCut(outline=[Point()], radius=100.0, height=0.5)
+            answer = rospy.ServiceProxy(node.name + '/cut', CutPlants)(cut=disc)
+            self.assertGreater(answer.plants, 0)
             Client(node.name).update_configuration({'rightward': 2.0, 'frequency': 3.0})
 
 

@@ -75,6 +75,17 @@ TEST(CanopyConversions, InvalidStatesAreRejected) {
   bad.lean_y = {0, -100};
   EXPECT_EQ(fromMsg(bad).bent.at(1).y, -100);
   bad = good;
+  bad.lists_cuts = true;
+  bad.cut_plants = {0, 1};
+  bad.cut_heights = {0.3};
+  EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("cut_heights has 1 entries, cut_plants has 2"),
+            std::string::npos);
+  bad.cut_heights.push_back(0.4);
+  EXPECT_EQ(fromMsg(bad).stubble, (canopy::Stubble{{0, 0.3}, {1, 0.4}}));
+  EXPECT_EQ(fromMsg(toMsg(fromMsg(bad))).stubble, fromMsg(bad).stubble);
+  bad.lists_cuts = false;
+  EXPECT_FALSE(fromMsg(bad).stubble);
+  bad = good;
   bad.up.resize(7);
   canopy::Replica receiver(sender.layout());
   EXPECT_NE(errorOf([&] { receiver.apply(fromMsg(bad)); }).find("cells"), std::string::npos);

@@ -63,6 +63,14 @@ class CanopyRig : public DisplayRig {
     out.header.frame_id = "map";
     return out;
   }
+  void cut(const std::vector<std::uint32_t>& plants, double height) {
+    canopy_->cut(plants, height);
+    publish(message());
+  }
+  void reset() {
+    canopy_->reset();
+    blow(1);
+  }
   /// Publishes a state in which bodies have pushed all plants to the left and to the right.
   void pushApart() {
     CanopyState state = message();
@@ -150,6 +158,20 @@ TEST_F(CanopyDisplayTest, BendsWhatBodiesPush) {
     rig.publish(rig.message());
     EXPECT_TRUE(rig.until([&] { return rig.picture() == upright; }));
   }
+}
+
+TEST_F(CanopyDisplayTest, WhatIsCutOffIsGoneUntilAReset) {
+  rig.blow(1);
+  rig.cut({0, 1}, 0.4);
+  EXPECT_TRUE(rig.until([&] {
+    const std::size_t leaves = display->drawn().leaves;
+    return leaves > 600 + 40 * 6 && leaves < 2 * 600 + 40 * 6;
+  })) << display->drawn().leaves;
+  rig.frames(5);
+  const std::vector<std::uint8_t> low = rig.picture();
+  rig.reset();
+  EXPECT_TRUE(rig.until([&] { return display->drawn().leaves == 2 * (600 + 40 * 6); }));
+  EXPECT_TRUE(rig.until([&] { return difference(low, rig.picture()) > 1.0; }));
 }
 
 // S3-W2: leaves on trees of the forest, in layers where no plant stands, move with their wood at

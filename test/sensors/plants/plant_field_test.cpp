@@ -56,6 +56,21 @@ TEST(PlantField, FindsWhatTestingEveryLeafFinds) {
   EXPECT_GT(labels[static_cast<std::size_t>(Label::STEM)], 10);
 }
 
+TEST(PlantField, OnlyCutPlantsAreGrownAgain) {
+  Grove grove(groveLayout(), false);
+  Plants plants;
+  grove.show(plants, alone);
+  const auto before = plants.all();
+  grove.cut({1}, 0.4);
+  grove.advance(60, 61);
+  grove.show(plants, alone);
+  ASSERT_EQ(plants.all().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(plants.all()[i] == before[i], before[i]->id() != 1) << i;
+    EXPECT_EQ(plants.all()[i]->cutHeight(), before[i]->id() == 1 ? 0.4 : canopy::UNCUT);
+  }
+}
+
 // The leaves at a tick are those that the animator's foliage moves, corner by corner.
 TEST(PlantField, LeavesMoveWithTheWind) {
   Grove windy(groveLayout()), calm(groveLayout(), false);

@@ -76,6 +76,19 @@ TEST(PosedPlant, RangesChangeAsTheLeanSays) {
   for (const double height : {0.1, 0.3, 0.5}) EXPECT_EQ(rangeAt(plant, height), upright[i++]);
 }
 
+TEST(PosedPlant, RaysPassAboveTheCut) {
+  const canopy::Layout layout = oneStalk();
+  const PosedPlant whole(layout, 0), cut(layout, 0, 0.4);
+  EXPECT_EQ(rangeAt(cut, 0.3), rangeAt(whole, 0.3));
+  EXPECT_LT(rangeAt(whole, 0.45), 6.0);
+  EXPECT_EQ(rangeAt(cut, 0.45), 20.0);
+  PosedPlant none(layout, 0, 0.0);
+  Calm calm(layout);
+  none.pose(calm.bend({}));
+  EXPECT_EQ(none.parts(), 0U);
+  EXPECT_EQ(rangeAt(none, 0.1), 20.0);
+}
+
 // Leaves turn with the fibre of their anchor, stems with those of their ends, corner by corner.
 TEST(PosedPlant, LeavesAndStemsTurnAboutTheFeetOfTheirFibres) {
   const canopy::Layout layout = canopy::shrubScene();

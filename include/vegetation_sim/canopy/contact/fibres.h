@@ -48,8 +48,12 @@ struct Fibres {
   /// Returns the foot of the fibre in the middle of a cell.
   Vec3 footOf(std::size_t cell) const;
 };
-/// Returns the fibres of a plant; those of a crown stand on its trunk.
-Fibres fibresOf(const PlantKind& kind, const Plant& plant);
+/// Length below which fibres answer no body: the stubble of a plant that is cut at its foot, or of
+/// a crown that is cut at its trunk [m].
+constexpr double SHORTEST_FIBRES = 1e-3;
+/// Returns the fibres of a plant that is cut at a height [m]; those of a crown stand on its trunk.
+/// Cutting does not change their cells.
+Fibres fibresOf(const PlantKind& kind, const Plant& plant, double height = UNCUT);
 /// Returns the share of a cell that lies within the circle of the plant's radius.
 double filledShare(const Fibres& fibres, std::size_t cell);
 
@@ -62,11 +66,14 @@ struct Cluster {
   bool rests() const;
 };
 
-/// Plants that lean, by id, cell by cell, and the bodies that push.
+/// What bodies and tools have done to plants.
 struct PushState {
-  std::map<std::uint32_t, std::vector<Cluster>> plants;
-  forest::Bodies bodies;
-  /// Adds nothing if there are neither plants nor bodies.
+  std::map<std::uint32_t, std::vector<Cluster>> plants;  ///< that lean, by id, cell by cell
+  forest::Bodies bodies;                                 ///< that push
+  Stubble stubble;
+  /// Returns the height at which a plant has been cut, or UNCUT [m].
+  double heightOf(std::uint32_t plant) const;
+  /// Adds nothing if there are no bodies and no plants that lean or have been cut.
   void addTo(Hash& hash) const;
 };
 void archivePush(Archive& a, PushState& state);

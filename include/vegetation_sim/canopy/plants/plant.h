@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -102,8 +103,15 @@ struct Plant {
   double scale{1.0};            ///< scale relative to its kind
 };
 
-/// Grows a plant: a pure function of kind and plant.
-GrownPlant grow(const PlantKind& kind, const Plant& plant);
+/// Height of a plant that has not been cut [m].
+constexpr double UNCUT = 1e9;
+/// Heights above their feet at which plants have been cut, by id [m].
+using Stubble = std::map<std::uint32_t, double>;
+/// Heights at which plants can be cut [m].
+constexpr Range CUT_HEIGHTS{0.0, 5.0};
+
+/// Grows a plant: a pure function of kind, plant and the height at which it has been cut [m].
+GrownPlant grow(const PlantKind& kind, const Plant& plant, double height = UNCUT);
 
 /// Returns the number of strips that grow() makes of a plant of this kind; 0 if its file has not
 /// been read.

@@ -8,17 +8,21 @@
 #include <vector>
 
 #include "core/archive/archive.h"
-#include "grass/tread/cutter.h"
-#include "nodes/grass/grass_options.h"
+#include "nodes/cutters/followed_cutter.h"
 #include "ros/services/frame_lookup.h"
 #include "ros/services/missing_inputs.h"
+#include "vegetation_sim/grass/tread/tread_map.h"
+#include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim {
 
 /// Cutting tools that follow tf frames. The node asks at each tick; a replay needs no tf, since the
-/// areas are events.
-class GrassCutters {
+/// cuts are events.
+class CutterFollower {
  public:
+  /// A tool whose transform is older has left the ground [s].
+  static constexpr double STALE = 0.5;
+
   /// Where a tool was at its last tick.
   struct LastCut {
     Vec3 position{Vec3::Zero()}, heading{Vec3::Zero()};
@@ -31,8 +35,8 @@ class GrassCutters {
   };
 
   /// `buffer` must outlive it. @param wait for the transforms of a tick [s], see FrameLookup.
-  GrassCutters(std::string frame_id, std::vector<FollowedCutter> cutters,
-               const tf2_ros::Buffer& buffer, double wait);
+  CutterFollower(std::string frame_id, std::vector<FollowedCutter> cutters,
+                 const tf2_ros::Buffer& buffer, double wait);
 
   /// Returns the areas that the tools have swept since the last call, in the order of the tools. A
   /// tool that was missing, higher than its gate or off cuts its footprint first, as does one whose

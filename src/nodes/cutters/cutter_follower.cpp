@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/grass/grass_cutters.h"
+#include "nodes/cutters/cutter_follower.h"
 
 #include <cmath>
 #include <utility>
 
-#include "nodes/grass/grass_sources.h"
+#include "nodes/cutters/followed_place.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -15,36 +15,36 @@ namespace {
 constexpr double TURNED_OR_MOVED = 1e-6;  // [m] or [rad]
 constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 58;
 
-grass::CutterPose poseOf(const GrassCutters::LastCut& cut) {
+grass::CutterPose poseOf(const CutterFollower::LastCut& cut) {
   return {{cut.position.x(), cut.position.y()}, {cut.heading.x(), cut.heading.y()}};
 }
 
-bool isJump(const GrassCutters::LastCut& from, const GrassCutters::LastCut& to,
+bool isJump(const CutterFollower::LastCut& from, const CutterFollower::LastCut& to,
             const grass::TreadSettings& settings) {
   const double way = length(to.position - from.position);
   const double seconds = secondsBetween(from.stamp, to.stamp);
   return !(way <= settings.longest_stroke && way <= settings.top_speed * seconds);
 }
 
-bool stands(const GrassCutters::LastCut& from, const GrassCutters::LastCut& to) {
+bool stands(const CutterFollower::LastCut& from, const CutterFollower::LastCut& to) {
   return length(to.position - from.position) <= TURNED_OR_MOVED &&
          length(to.heading - from.heading) <= TURNED_OR_MOVED;
 }
 
 }  // namespace
 
-GrassCutters::GrassCutters(std::string frame_id, std::vector<FollowedCutter> cutters,
-                           const tf2_ros::Buffer& buffer, double wait)
+CutterFollower::CutterFollower(std::string frame_id, std::vector<FollowedCutter> cutters,
+                               const tf2_ros::Buffer& buffer, double wait)
     : frame_id_(std::move(frame_id)),
       cutters_(std::move(cutters)),
       lookup_(buffer, frame_id_, wait) {}
 
-void GrassCutters::setEnabled(bool enabled) {
+void CutterFollower::setEnabled(bool enabled) {
   state_.enabled = enabled;
   if (!enabled) state_.last.clear();
 }
 
-void GrassCutters::restore(State state) {
+void CutterFollower::restore(State state) {
   state_.enabled = state.enabled;
   state_.last.clear();
   for (const FollowedCutter& cutter : cutters_)
@@ -52,10 +52,10 @@ void GrassCutters::restore(State state) {
       state_.last[cutter.name] = found->second;
 }
 
-void GrassCutters::archive(Archive& a, State& state) {
+void CutterFollower::archive(Archive& a, State& state) {
   a.flag("cutters are on", state.enabled);
   a.map(
-      "cutters", state.last, MOST_FOLLOWED_SOURCES, CUT_BYTES,
+      "cutters", state.last, MOST_FOLLOWED, CUT_BYTES,
       [&a](std::string& name) { a.text("cutter", name, LONGEST_CUTTER_NAME); },
       [&a](const std::string&, LastCut& last) {
         a.vector("position of a cutter", last.position);
@@ -65,12 +65,12 @@ void GrassCutters::archive(Archive& a, State& state) {
 }
 
 // Returns no place for a frame that is missing, old or points straight up.
-std::optional<GrassCutters::LastCut> GrassCutters::find(const FollowedCutter& cutter,
-                                                        Nanoseconds now) {
+std::optional<CutterFollower::LastCut> CutterFollower::find(const FollowedCutter& cutter,
+                                                            Nanoseconds now) {
   try {
     const auto found = lookup_.find(cutter.frame);
     const Nanoseconds stamp = fromMsg(found.header.stamp);
-    if (stamp != 0 && secondsBetween(stamp, now) > GrassSources::STALE) return std::nullopt;
+    if (stamp != 0 && secondsBetween(stamp, now) > STALE) return std::nullopt;
     const Pose to_world = fromMsg(found.transform);
     Vec3 heading = rotate(to_world.orientation, Vec3(1.0, 0.0, 0.0));
     heading.z() = 0.0;
@@ -82,9 +82,10 @@ std::optional<GrassCutters::LastCut> GrassCutters::find(const FollowedCutter& cu
   }
 }
 
-std::vector<grass::CutArea> GrassCutters::update(Nanoseconds now, const terrain::HeightMap& terrain,
-                                                 double height_gate,
-                                                 const grass::TreadSettings& settings) {
+std::vector<grass::CutArea> CutterFollower::update(Nanoseconds now,
+                                                   const terrain::HeightMap& terrain,
+                                                   double height_gate,
+                                                   const grass::TreadSettings& settings) {
   std::vector<grass::CutArea> out;
   missing_.clear();
   if (!state_.enabled) return out;
