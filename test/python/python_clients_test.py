@@ -119,6 +119,8 @@ class PythonClients(unittest.TestCase):
             (lambda: self.grass.tread((0, 0), radius=0.0), 'radius = 0 m is outside'),
             (lambda: self.grass.clear((0, 0), -1.0), 'radius = -1 m is outside'),
             (lambda: self.grass.cut((0, 0), radius=1.0, height=-1.0), 'height = -1 m is outside'),
+            (lambda: self.grass.cut((0, 0), radius=-2.0, height=0.1), 'radius = -2 m is outside'),
+            (lambda: self.grass.cut((1e4, 0), radius=1.0, height=0.1), 'is beyond the meadow'),
             (lambda: self.crowd.spawn((0, 0), count=0), 'count = 0 is outside'),
             (lambda: self.crowd.send([9999], (0, 0)), 'walker 9999 is unknown',
              ErrorCode.UNKNOWN),

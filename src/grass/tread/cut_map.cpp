@@ -41,6 +41,11 @@ void checkOutline(const std::vector<Point>& outline, const std::string& name, Fa
 }  // namespace
 
 void check(const CutArea& area, const std::string& context, Faults& faults) {
+  FieldChecker checker(context, faults);
+  CutArea copy = area;
+  checker.number("radius", copy.radius, "m", {0.0, 1000.0});
+  checker.number("height", copy.height, "m", {0.0, 5.0});
+  if (!faults.empty()) return;
   const std::size_t least = area.radius > 0.0 ? 1 : 3;
   const auto checkCount = [&](const char* name, std::size_t count, std::size_t fewest) {
     if (count < fewest || count > CutArea::MOST_POINTS)
@@ -53,10 +58,6 @@ void check(const CutArea& area, const std::string& context, Faults& faults) {
   if (!faults.empty()) return;
   checkOutline(area.outline, context + "outline", faults);
   checkOutline(area.swath, context + "swath", faults);
-  FieldChecker checker(context, faults);
-  CutArea copy = area;
-  checker.number("radius", copy.radius, "m", {0.0, 1000.0});
-  checker.number("height", copy.height, "m", {0.0, 5.0});
 }
 
 double massBelow(const FeatureMap& map, const Features& features, double longest) {

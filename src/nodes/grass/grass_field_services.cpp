@@ -1,6 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "grass/lod/node_wind.h"
 #include "nodes/cutters/cut_request.h"
@@ -26,6 +28,27 @@ void checkPoint(std::size_t index, Vec3 point, Faults& faults) {
   checker.number("y", point.y(), "m", PLACES);
 }
 
+/// Ranges of a map in x and y [m].
+std::pair<Range, Range> rangesOf(const grass::MapLaw& law) {
+  return {{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)},
+          {law.origin_y, law.origin_y + law.resolution * (law.rows - 1)}};
+}
+
+// Refuses an area of which no corner is near enough to the map to reach it.
+void checkReach(const grass::CutArea& area, const grass::MapLaw& law) {
+  const auto [x, y] = rangesOf(law);
+  grass::Point low = area.outline.front(), high = low;
+  for (const grass::Point& point : area.outline) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  const double r = area.radius;
+  if (low.x - r > x.high || high.x + r < x.low || low.y - r > y.high || high.y + r < y.low)
+    throw InvalidInput("outline is beyond the meadow, which is from (" + std::to_string(x.low) +
+                       ", " + std::to_string(y.low) + ") to (" + std::to_string(x.high) + ", " +
+                       std::to_string(y.high) + ") m in the world frame");
+}
+
 double flatLength(const Vec3& a, const Vec3& b) {
   const double x = b.x() - a.x(), y = b.y() - a.y();
   return std::sqrt(x * x + y * y);
@@ -37,10 +60,11 @@ double flatLength(const Vec3& a, const Vec3& b) {
 std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
   checkCount(request.points.size(), MOST_PATH_POINTS);
   const Pose to_world = poseOf(request.header.frame_id);
-  const grass::MapLaw& law = field_->layout().map->law();
-  const Range x_range{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)};
-  const Range y_range{law.origin_y, law.origin_y + law.resolution * (law.rows - 1)};
+  const auto [x_range, y_range] = rangesOf(field_->layout().map->law());
   Faults faults;
+  for (std::size_t i = 0; i < request.points.size(); ++i)
+    checkPoint(i, fromMsg(request.points[i]), faults);
+  faults.throwIfAny();
   std::vector<Vec3> out;
   for (std::size_t i = 0; i < request.points.size(); ++i) {
     Vec3 p = fromMsg(request.points[i]);
@@ -169,6 +193,7 @@ bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response)
   return answer(response, [&]() -> std::string {
     refuseInReplay();
     const grass::CutArea area = areaOf(request.cut, poseOf(request.header.frame_id));
+    checkReach(area, field_->layout().map->law());
     field_->checkCut(area);
     GrassEvent event;
     event.kind = GrassEvent::CUT;

@@ -21,11 +21,27 @@ void FrameLookup::begin(Nanoseconds tick) {
   deadline_ = ros::WallTime::now() + ros::WallDuration(wait_);
 }
 
-bool FrameLookup::awaits(const std::string& frame, const ros::Time& stamp) const {
+// Returns the stamp of the newest transform, 0 if there is none.
+ros::Time FrameLookup::newestOf(const std::string& frame) const {
+  try {
+    return buffer_.lookupTransform(world_, frame, ros::Time(0)).header.stamp;
+  } catch (const tf2::TransformException&) {
+    return {};
+  }
+}
+
+bool FrameLookup::awaits(const std::string& frame, const ros::Time& stamp) {
+  const auto given_up = given_up_.find(frame);
+  if (given_up != given_up_.end() && given_up->second == newestOf(frame))
+    return buffer_.canTransform(world_, frame, stamp);
   while (!buffer_.canTransform(world_, frame, stamp)) {
-    if (ros::WallTime::now() >= deadline_) return false;
+    if (ros::WallTime::now() >= deadline_) {
+      given_up_[frame] = newestOf(frame);
+      return false;
+    }
     ros::WallDuration(PAUSE).sleep();
   }
+  given_up_.erase(frame);
   return true;
 }
 

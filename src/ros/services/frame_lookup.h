@@ -6,6 +6,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <cstddef>
+#include <map>
 #include <string>
 
 #include "vegetation_sim/core/math/time.h"
@@ -14,7 +15,9 @@ namespace vegetation_sim {
 
 /// Looks up the frames that a node follows, once per tick. Without a wait the newest transforms
 /// count, so that a tick depends on which messages have come before it. With one, the tick waits
-/// for the transforms at its own stamp, so that equal messages give equal ticks.
+/// for the transforms at its own stamp, so that equal messages give equal ticks. A frame that has
+/// been awaited in vain is awaited again when it has another transform, so that one that never
+/// comes delays one tick.
 class FrameLookup {
  public:
   static constexpr double LONGEST_WAIT = 60.0;  ///< [s]
@@ -32,13 +35,15 @@ class FrameLookup {
   std::size_t late() const { return late_; }
 
  private:
-  bool awaits(const std::string& frame, const ros::Time& stamp) const;
+  bool awaits(const std::string& frame, const ros::Time& stamp);
+  ros::Time newestOf(const std::string& frame) const;
 
   const tf2_ros::Buffer& buffer_;
   std::string world_;
   double wait_;
   Nanoseconds tick_{0};
   ros::WallTime deadline_;
+  std::map<std::string, ros::Time> given_up_;  // newest stamp of frames awaited in vain
   std::size_t late_{0};
 };
 

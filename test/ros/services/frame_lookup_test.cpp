@@ -72,5 +72,29 @@ TEST_F(FrameLookupTest, AfterTheWaitTheNewestTransformCounts) {
   EXPECT_THROW(lookup.find("nowhere"), tf2::TransformException);
 }
 
+// One that never comes must not delay every tick.
+TEST_F(FrameLookupTest, AFrameThatWasAwaitedInVainIsAwaitedAgainWhenItHasAnotherTransform) {
+  FrameLookup lookup(buffer_, "world", 0.2);
+  publish(5);
+  const auto wait = [&](std::int64_t tick, const std::string& frame) {
+    const ros::WallTime start = ros::WallTime::now();
+    lookup.begin(tick * TICK);
+    try {
+      lookup.find(frame);
+    } catch (const tf2::TransformException&) {
+    }
+    return (ros::WallTime::now() - start).toSec();
+  };
+  for (const char* frame : {"wheel", "nowhere"}) {
+    EXPECT_GE(wait(7, frame), 0.2) << frame;
+    EXPECT_LT(wait(8, frame), 0.2) << frame;
+  }
+  EXPECT_EQ(lookup.late(), 4u);
+  publish(8);
+  EXPECT_LT(wait(8, "wheel"), 0.2);
+  EXPECT_GE(wait(9, "wheel"), 0.2);
+  EXPECT_EQ(lookup.late(), 5u);
+}
+
 }  // namespace
 }  // namespace vegetation_sim
