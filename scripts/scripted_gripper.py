@@ -17,6 +17,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 RATE = 50.0  # [Hz]
 METRES_PER_NEWTON = 0.003  # Length of the force arrow per newton. [m/N]
+THINNEST = 0.002  # Radius of the thinnest branch that it grabs. What has come off is thinner. [m]
 STEEL, ORANGE, RED = (0.25, 0.27, 0.30), (0.95, 0.45, 0.05), (0.80, 0.05, 0.05)
 # Steps of the motion and their durations [s].
 SCRIPT = [('come', 3.0), ('close', 0.5), ('pull', 3.0), ('hold', 4.0), ('open', 0.3), ('go', 3.0),
@@ -68,20 +69,22 @@ class ScriptedGripper:
             self.wrench = message
 
     def choose(self):
-        """Chooses the thickest of the branches that pass near the point `near`."""
+        """Chooses the thickest of the branches that pass near the point `near`, or the nearest one
+        if they have broken off."""
         tree = self.get_tree(tree=self.tree)
         if not tree.success:
             rospy.logwarn_throttle(5.0, 'no tree yet: ' + tree.message)
             return False
-        best = None
+        found = []
         for i, pose in enumerate(tree.transforms.poses):
             middle = along_z(pose, 0.5 * tree.lengths[i])
-            if tree.depths[i] > 0 and math.dist(middle, self.near) < 0.4:
-                if best is None or tree.radii[i] > tree.radii[best]:
-                    best = i
-        if best is None:
+            if tree.depths[i] > 0 and tree.radii[i] > THINNEST:
+                found.append((math.dist(middle, self.near), i))
+        if not found:
             rospy.logwarn_throttle(5.0, 'no branch near %s' % self.near)
             return False
+        near = [i for distance, i in found if distance < 0.4]
+        best = max(near, key=lambda i: tree.radii[i]) if near else min(found)[1]
         self.branch, self.along = best, 0.9 * tree.lengths[best]
         return True
 

@@ -148,6 +148,46 @@ TEST(ForestConversions, RejectInvalidPhysicalBranches) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
+forest::BrokenBranch fallen(int branch) {
+  forest::BrokenBranch out;
+  out.branch = branch;
+  out.stamp = 1234567;
+  out.cut = true;
+  out.pose = {Vec3(0.1, -1.0 / 3.0, 2.0), Quat{0.6, 0.0, 0.8, 0.0}};
+  out.velocity = Vec3(0.7, 0.0, -5.0 / 7.0);
+  out.spin = Vec3(-1e-9, 3.0, 0.0);
+  return out;
+}
+
+TEST(ForestConversions, ReturnBrokenBranchesToTheBit) {
+  forest::StateUpdate update;
+  update.trees = {{4, forest::LevelState::settled(2), {}, {}, {fallen(3), fallen(9)}}};
+  const forest::StateUpdate back = fromMsg(toMsg(update));
+  EXPECT_TRUE(back.trees[0].broken == update.trees[0].broken);
+}
+
+TEST(ForestConversions, RejectInvalidBrokenBranches) {
+  forest::StateUpdate update;
+  update.trees = {{4, forest::LevelState::settled(2), {}, {}, {fallen(3), fallen(9), fallen(5)}}};
+  ForestState message = toMsg(update);
+  auto& broken = message.trees[0].broken;
+  broken[0].branch = 0;
+  broken[0].twist.linear.y = FOREST_NAN;
+  broken[1].branch = 4294967295u;
+  broken[1].pose.position.x = 1e9;
+  broken[2].pose.orientation.w = 0.0;
+  broken[2].twist.angular.z = FOREST_NAN;
+  const std::string faults = errorOf([&] { fromMsg(message); });
+  for (const char* part :
+       {"tree 4: broken branch 0: branch = 0 is outside 1 to", "broken branch 0: velocity",
+        "broken branch 4294967295: branch = -1 is outside", "position", "broken branch 5: spin",
+        "broken branch 5: norm of orientation = 0.8 is outside"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+  broken.assign(4097, broken.front());
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "state: 4097 broken branches, allowed are 0 to 4096");
+}
+
 TEST(ForestConversions, RejectMoreTreesInModesThanAnAnimatorCanHave) {
   forest::StateUpdate update;
   const physics::ModalState modes{{0.0}, {0.0}};

@@ -111,6 +111,19 @@ TEST(Species, HashSeesTheTurn) {
   EXPECT_NE(hash(species), before);
 }
 
+// Species that never break keep the hash that they had before others could.
+TEST(Species, HashSeesAStrengthAboveZero) {
+  Species species = shippedSpecies("oak");
+  EXPECT_EQ(species.strength, 0.0);
+  const std::uint64_t before = hash(species);
+  species.strength = 5.7e7;
+  EXPECT_NE(hash(species), before);
+  EXPECT_EQ(parseSpecies(writeSpecies(species), "copy").strength, 5.7e7);
+  EXPECT_NE(faultOf("{name: a, strength: -1}").find("strength = -1 Pa is outside 0 to 1e+12"),
+            std::string::npos);
+  EXPECT_NE(faultOf("{name: a, strength: .nan}").find("strength"), std::string::npos);
+}
+
 class Stage : public testing::TestWithParam<std::string> {};
 
 // Means of eight trees, because numbers of limbs are rounded at random.
