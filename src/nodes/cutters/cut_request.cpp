@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/cutters/cut_request.h"
 
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
