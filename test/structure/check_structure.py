@@ -13,7 +13,8 @@ Prints one line for each fault and exits 1 if there is one. Checks that
 - a source has a header of its stem, or continues a class of a header (grab_manager_ticks.cpp: grab_manager.h);
 - a test program mirrors a folder of src/;
 - no folder below src/, include/ or test/ holds more files than allowed;
-- the table and the picture in docs/architecture.md show the same rows (--write updates them).
+- each top folder, and nothing else, has a sentence in top_folders;
+- the table and the picture in docs/architecture.md are those of the rows (--write updates them).
 """
 import collections
 import pathlib
@@ -190,9 +191,15 @@ def check_sizes():
             faults.append('%s: %d files, allowed are %d' % (folder, files, TABLE['most_files']))
 
 
+def check_top_folders():
+    top = {name.split('/')[0] for name in FOLDERS}
+    for folder in sorted(top ^ set(TABLE['top_folders'])):
+        faults.append('docs/folders.yaml: %s is in only one of folders and top_folders' % folder)
+
+
 def draw_table():
     lines = ['|folder|what it holds|', '|---|---|']
-    lines += ['|`%s`|%s|' % (folder, row['holds']) for folder, row in FOLDERS.items()]
+    lines += ['|`%s`|%s|' % (folder, holds) for folder, holds in TABLE['top_folders'].items()]
     return '\n'.join(lines) + '\n'
 
 
@@ -244,6 +251,7 @@ check_public_headers()
 check_stems()
 check_tests()
 check_sizes()
+check_top_folders()
 check_page('--write' in sys.argv[1:])
 print('\n'.join(faults))
 sys.exit(1 if faults else 0)
