@@ -27,7 +27,7 @@ std::vector<float> randomPlaces(double size) {
 
 class BatchWindOf : public testing::TestWithParam<int> {};
 
-// S1-16, S2-20: single precision keeps seven digits, here of speeds up to 10 m/s and of phases and
+// S1-16, S2-20: single precision keeps seven digits, here of speeds up to 10 m/s and of waves and
 // profiles with slopes up to 5 m/s per metre at places up to 30 m away.
 TEST_P(BatchWindOf, IsTheLawToSinglePrecision) {
   const wind::Field field({wind::oneOfEach()[static_cast<std::size_t>(GetParam())]}, 3);
