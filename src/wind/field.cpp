@@ -9,6 +9,7 @@
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/wind/breeze.h"
 #include "wind/fade.h"
+#include "wind/laws.h"
 #include "wind/limits.h"
 #include "wind/trajectory.h"
 
@@ -17,7 +18,11 @@ namespace {
 
 // share of a repeated gust's cycle in which it fades, at each end
 constexpr double REPEAT_EDGE = 0.1;
-constexpr double GUST_MARGIN = 1.0;  // [s] motion of a gust's front that a bound covers
+constexpr double BOUND_TIME = 1.0;  // [s] motion of a gust or wake that a bound covers
+// A wake belongs to the mean velocity of its body over this time: that of a spline at one instant
+// is only once differentiable.
+constexpr double WAKE_TIME = 0.2;   // [s]
+constexpr double WAKE_ONSET = 0.5;  // [m/s] speed of a body from which its wake has full strength
 
 Vec3 levelDirection(const Vec3& v) {
   const double size = std::sqrt(v.x() * v.x() + v.y() * v.y());
@@ -47,8 +52,20 @@ void shapeGust(const Primitive& p, double elapsed, double weight, Term& term) {
   term.rise = p.rise_length;
   term.plateau = p.plateau_length;
   term.decay = p.decay_length;
-  term.travel = p.front_speed * GUST_MARGIN;
+  term.travel = p.front_speed * BOUND_TIME;
   term.peak = weight * length(p.velocity);
+}
+
+void shapeWake(const Primitive& p, const Vec3& velocity, double weight, Term& term) {
+  const Vec3 level(velocity.x(), velocity.y(), 0.0);
+  const double speed = length(level);
+  term.direction = levelDirection(level);
+  // Near zero speed, the direction turns fast and the strength falls faster.
+  term.amplitude = level * (p.inflow * weight * smootherStep(speed / WAKE_ONSET));
+  term.plateau = p.plateau_length;
+  term.decay = p.decay_length;
+  term.travel = speed * BOUND_TIME;
+  term.peak = length(term.amplitude) * WAKE_PEAK;
 }
 
 void shapeEddy(const Primitive& p, double weight, Term& term) {
@@ -66,6 +83,13 @@ void shapeEddy(const Primitive& p, double weight, Term& term) {
 struct Field::Compiled {
   Trajectory path;
   Breeze breeze;
+
+  Vec3 centreAt(const Primitive& p, Nanoseconds stamp) const {
+    const Vec3 centre = path.at(stamp);
+    if (!(p.orbit_radius > 0.0)) return centre;
+    const SinCos turn = sinCosTurns(secondsBetween(p.epoch, stamp) / p.orbit_period);
+    return centre + Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
+  }
 };
 
 Field::Field() = default;
@@ -123,14 +147,15 @@ bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
   const double weight = fade(p, stamp), elapsed = secondsBetween(p.epoch, stamp);
   if (weight == 0.0) return false;
   out.radius = p.radius;
-  out.centre = compiled_[index]->path.at(stamp);
-  if (p.orbit_radius > 0.0) {
-    const SinCos turn = sinCosTurns(elapsed / p.orbit_period);
-    out.centre += Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
-  }
+  out.centre = compiled_[index]->centreAt(p, stamp);
   if (out.kind == Kind::DISK) shapeDisk(p, elapsed, weight, out);
   if (out.kind == Kind::GUST) shapeGust(p, elapsed, weight, out);
   if (out.kind == Kind::TORNADO || out.kind == Kind::BLAST) shapeEddy(p, weight, out);
+  if (out.kind == Kind::WAKE) {
+    const Nanoseconds half = fromSeconds(0.5 * WAKE_TIME);
+    const Vec3 before = compiled_[index]->centreAt(p, stamp - half);
+    shapeWake(p, (compiled_[index]->centreAt(p, stamp + half) - before) / WAKE_TIME, weight, out);
+  }
   return out.peak > 0.0;
 }
 

@@ -54,6 +54,48 @@ Vec3 blast(const Term& term, const Vec3& offset) {
   return offset * (term.speed * envelope(term, d) * coreProfilePerMetre(d, term.core));
 }
 
+/// Returns one over the growth of a wake's width at a distance behind the centre of its body.
+double wakeNarrowing(const Term& term, double behind) {
+  return 1.0 / cubeRoot(1.0 + behind / (WAKE_SPREAD * term.radius));
+}
+
+/// Profile of a wake over the distance from its axis in widths: Gaussian, with a C2 end.
+double wakeAcross(double widths) {
+  if (widths >= WAKE_EDGE) return 0.0;
+  return exponential(-widths * widths) * (1.0 - smootherStep(widths - (WAKE_EDGE - 1.0)));
+}
+
+// The far field of an axisymmetric turbulent wake (Tennekes and Lumley 1972, section 4.6): the
+// momentum through each cross section is the same.
+Vec3 wake(const Term& term, const Vec3& offset) {
+  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
+  const double behind = -ahead;
+  if (behind <= -term.radius || behind >= term.plateau + term.decay) return Vec3::Zero();
+  const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
+  const double b = std::sqrt(beside * beside + offset.z() * offset.z());
+  const double narrowing = wakeNarrowing(term, behind);
+  const double along = smootherStep((behind + term.radius) / term.radius) *
+                       (1.0 - smootherStep((behind - term.plateau) / term.decay));
+  return term.amplitude *
+         (along * (narrowing * narrowing) * wakeAcross(b * narrowing / term.radius));
+}
+
+// Each factor is bounded by its largest value on the interval.
+double wakeBound(const Term& term, const Vec3& offset, double reach) {
+  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
+  const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
+  const double margin = reach + term.travel, end = term.plateau + term.decay;
+  if (-ahead + margin <= -term.radius || -ahead - margin >= end) return 0.0;
+  const double first = std::max(-ahead - margin, -term.radius);
+  const double last = std::min(-ahead + margin, end);
+  const double along = smootherStep((last + term.radius) / term.radius) *
+                       (1.0 - smootherStep((first - term.plateau) / term.decay));
+  const double narrow = wakeNarrowing(term, first), wide = wakeNarrowing(term, last);
+  const double nearest = std::max(0.0, std::fabs(beside) - reach) * wide / term.radius;
+  return std::min(term.peak, length(term.amplitude) * along * (narrow * narrow)) *
+         wakeAcross(nearest);
+}
+
 double gustBound(const Term& term, const Vec3& offset, double reach) {
   const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
   const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
@@ -66,6 +108,12 @@ double gustBound(const Term& term, const Vec3& offset, double reach) {
 }
 
 }  // namespace
+
+Strip stripOf(const Term& term) {
+  if (term.kind == Kind::GUST) return {0.0, term.rise + term.plateau + term.decay, term.radius};
+  const double end = term.plateau + term.decay;
+  return {term.radius, end, WAKE_EDGE * term.radius / wakeNarrowing(term, end)};
+}
 
 double envelope(const Term& term, double d) {
   const double u = (term.radius - d) / term.radius;
@@ -81,6 +129,8 @@ Vec3 velocityOf(const Term& term, const Vec3& position) {
       return tornado(term, offset);
     case Kind::BLAST:
       return blast(term, offset);
+    case Kind::WAKE:
+      return wake(term, offset);
     default:
       return term.amplitude * envelope(term, horizontal(offset));  // S1-15
   }
@@ -89,6 +139,7 @@ Vec3 velocityOf(const Term& term, const Vec3& position) {
 double boundOf(const Term& term, const Vec3& position, double reach) {
   const Vec3 offset = position - term.centre;
   if (term.kind == Kind::GUST) return gustBound(term, offset, reach);
+  if (term.kind == Kind::WAKE) return wakeBound(term, offset, reach);
   const double d = std::max(0.0, horizontal(offset) - reach);
   const double bound = term.peak * envelope(term, d);
   if (term.kind == Kind::DISK || d <= term.core) return bound;

@@ -25,13 +25,14 @@ struct Split {
 void visit(const Split& split, Primitive& p) {
   const bool disk = isKind(p, {Kind::DISK}), breeze = isKind(p, {Kind::BREEZE});
   const bool gust = isKind(p, {Kind::GUST}), tornado = isKind(p, {Kind::TORNADO});
+  const bool wake = isKind(p, {Kind::WAKE});
   const bool centred = !breeze, radial = isKind(p, {Kind::TORNADO, Kind::BLAST});
   split(true).choice("kind", p.kind, kindNames());
   split(true).number("fade_in", p.fade_in, "s", {0.0, 600.0});
   split(true).number("fade_out", p.fade_out, "s", {0.0, 600.0});
   split(centred).number("orbit_radius", p.orbit_radius, "m", {0.0, 1e5});
   split(centred).number("orbit_period", p.orbit_period, "s", {0.0, 1e6});
-  split(!radial).vector("velocity", p.velocity, "m/s", SPEEDS);
+  split(!radial && !wake).vector("velocity", p.velocity, "m/s", SPEEDS);
   split(centred).number("radius", p.radius, "m", {0.01, 1e5});
   split(disk).number("omega", p.omega, "rad/s", {0.0, 100.0});
   split(disk).number("phase", p.phase, "rad", {-100.0, 100.0});
@@ -40,12 +41,12 @@ void visit(const Split& split, Primitive& p) {
   split(breeze).number("length_scale", p.length_scale, "m", {1.0, 1000.0});
   split(gust).number("front_speed", p.front_speed, "m/s", {0.0, 200.0});
   split(gust).number("rise_length", p.rise_length, "m", {0.01, 1e4});
-  split(gust).number("plateau_length", p.plateau_length, "m", {0.0, 1e4});
-  split(gust).number("decay_length", p.decay_length, "m", {0.01, 1e4});
+  split(gust || wake).number("plateau_length", p.plateau_length, "m", {0.0, 1e4});
+  split(gust || wake).number("decay_length", p.decay_length, "m", {0.01, 1e4});
   split(gust).number("repeat", p.repeat, "s", {0.0, 1e6});
   split(radial).number("speed", p.speed, "m/s", SPEEDS);
   split(radial).number("core_radius", p.core_radius, "m", {0.01, 1e4});
-  split(tornado).number("inflow", p.inflow, "", {-2.0, 2.0});
+  split(tornado || wake).number("inflow", p.inflow, "", {-2.0, 2.0});
   split(tornado).number("updraft", p.updraft, "", {-2.0, 2.0});
 }
 
@@ -105,7 +106,8 @@ void checkGust(const std::string& context, const Primitive& p, Faults& faults) {
 }  // namespace
 
 const std::vector<std::string>& kindNames() {
-  static const std::vector<std::string> NAMES = {"disk", "breeze", "gust", "tornado", "blast"};
+  static const std::vector<std::string> NAMES = {"disk",    "breeze", "gust",
+                                                 "tornado", "blast",  "wake"};
   return NAMES;
 }
 

@@ -11,7 +11,14 @@ void check(const Source& source, Faults& faults) {
 
 void checkFrame(const Source& source, Faults& faults) {
   const Primitive& p = source.primitive;
-  if (source.attached_frame.empty()) return;
+  if (source.attached_frame.empty()) {
+    if (p.kind == Kind::WAKE && p.trajectory.size() < 2 && !(p.orbit_radius > 0.0))
+      faults.add(
+          "primitive '" + p.name +
+          "': attached_frame, orbit_radius and a trajectory of two way points are missing, so "
+          "the centre never moves and has no wake");
+    return;
+  }
   const std::string context =
       "primitive '" + p.name + "': attached_frame = '" + source.attached_frame + "' ";
   if (p.kind == Kind::BREEZE) faults.add(context + "is given, but a breeze is everywhere");

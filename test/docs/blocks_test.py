@@ -36,6 +36,7 @@ TESTS = {
     ('docs/tutorials/3_planner.md', 'python'): 'recipes_test',
     ('docs/tutorials/3_planner.md', 'yaml'): 'blocks_test',
     ('docs/tutorials/4_arm.md', 'python'): 'blocks_test',
+    ('docs/wind.md', 'yaml'): 'blocks_test',
 }
 
 
@@ -96,6 +97,20 @@ class Blocks(unittest.TestCase):
             start(meadow, **sources)
             with self.assertRaisesRegex(AssertionError, 'bogus'):
                 start({**meadow, 'bogus': 1})
+
+    def test_wind_broadcaster_reads_the_air_of_vehicles(self):
+        found = fenced('docs/wind.md', 'yaml')
+        self.assertEqual(len(found), 2)
+
+        def start(scene):
+            with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+                file.write(scene)
+                file.flush()
+                start_node('wind_broadcaster', ['_scenario:=' + file.name])
+        for block in found:
+            start(block)
+            with self.assertRaisesRegex(AssertionError, 'bogus'):
+                start(block.replace('attached_frame', 'bogus'))
 
     def test_forest_animator_reads_the_bodies(self):
         block, = fenced('docs/grab.md', 'yaml')

@@ -66,6 +66,11 @@ const std::vector<NumberCase> NUMBERS = {
     {"core_radius", Kind::TORNADO, [](Primitive& p) -> double& { return p.core_radius; }, 0.01,
      1e4},
     {"inflow", Kind::TORNADO, [](Primitive& p) -> double& { return p.inflow; }, -2.0, 2.0},
+    {"inflow", Kind::WAKE, [](Primitive& p) -> double& { return p.inflow; }, -2.0, 2.0},
+    {"radius", Kind::WAKE, [](Primitive& p) -> double& { return p.radius; }, 0.01, 1e5},
+    {"plateau_length", Kind::WAKE, [](Primitive& p) -> double& { return p.plateau_length; }, 0.0,
+     1e4},
+    {"decay_length", Kind::WAKE, [](Primitive& p) -> double& { return p.decay_length; }, 0.01, 1e4},
     {"updraft", Kind::TORNADO, [](Primitive& p) -> double& { return p.updraft; }, -2.0, 2.0}};
 
 class EveryNumber : public testing::TestWithParam<NumberCase> {};
@@ -110,11 +115,11 @@ TEST(Check, AllowsOddNumbersOnlyWhereTheKindDoesNotUseThem) {
 
 TEST(Check, RefusesAnUnknownKind) {
   Primitive p = example(Kind::DISK);
-  p.kind = static_cast<Kind>(5);
+  p.kind = static_cast<Kind>(6);
   EXPECT_EQ(
       faultsOf(p),
-      "primitive 'source': kind = 5 is none of 0 (disk), 1 (breeze), 2 (gust), 3 (tornado), 4 "
-      "(blast)");
+      "primitive 'source': kind = 6 is none of 0 (disk), 1 (breeze), 2 (gust), 3 (tornado), 4 "
+      "(blast), 5 (wake)");
 }
 
 TEST(Check, RefusesAnUnknownEnvelope) {
@@ -186,6 +191,30 @@ TEST(CheckSource, RefusesAFrameTogetherWithWhatItReplaces) {
   Faults none;
   check(source, none);
   EXPECT_TRUE(none.empty()) << none.text();
+}
+
+TEST(CheckSource, RefusesAWakeWhoseCentreNeverMoves) {  // N11
+  const auto faultsOfWake = [](const std::function<void(Source&)>& change) {
+    Source source{example(Kind::WAKE), ""};
+    source.primitive.trajectory = {{0, Vec3::Zero()}};
+    change(source);
+    Faults faults;
+    check(source, faults);
+    return faults.text();
+  };
+  EXPECT_EQ(faultsOfWake([](Source&) {}),
+            "primitive 'source': attached_frame, orbit_radius and a trajectory of two way points "
+            "are missing, so the centre never moves and has no wake");
+  EXPECT_EQ(faultsOfWake([](Source& s) { s.primitive.orbit_radius = 3.0; }), "");
+  EXPECT_EQ(faultsOfWake([](Source& s) {
+              s.primitive.trajectory.push_back({1, Vec3::UnitX()});
+            }),
+            "");
+  EXPECT_EQ(faultsOfWake([](Source& s) {
+              s.primitive.trajectory.clear();
+              s.attached_frame = "car";
+            }),
+            "");
 }
 
 TEST(StartedAt, ShiftsEveryStampButForEver) {

@@ -57,9 +57,11 @@ wind:
         - {t: 30.5, position: [10, -40, 0]}
     - {name: twister, kind: tornado, speed: 14, core_radius: 3, inflow: 0.4, updraft: 0.3}
     - {name: rotor, kind: blast, speed: 12, core_radius: 1, radius: 6, attached_frame: drone}
+    - {name: slipstream, kind: wake, radius: 0.9, inflow: 0.2, plateau_length: 6, decay_length: 3,
+       attached_frame: car}
 )");
   EXPECT_EQ(wind.seed, 18446744073709551615ULL);
-  ASSERT_EQ(wind.sources.size(), 5u);
+  ASSERT_EQ(wind.sources.size(), 6u);
   const Primitive &breeze = wind.sources[0].primitive, &disk = wind.sources[1].primitive;
   EXPECT_EQ(breeze.velocity, Vec3(4.0, 1.0, 0.0));
   EXPECT_EQ(breeze.length_scale, 60.0);
@@ -74,6 +76,11 @@ wind:
   EXPECT_EQ(squall.t_off, at(60.0));
   EXPECT_EQ(squall.trajectory.at(1).stamp, at(30.5));
   EXPECT_EQ(wind.sources[4].attached_frame, "drone");
+  const Primitive& wake = wind.sources[5].primitive;
+  EXPECT_EQ(wake.radius, 0.9);
+  EXPECT_EQ(wake.inflow, 0.2);
+  EXPECT_EQ(wake.plateau_length, 6.0);
+  EXPECT_EQ(wake.decay_length, 3.0);
 }
 
 TEST(ReadWind, OfNothingIsStillAir) {
@@ -96,6 +103,9 @@ TEST(ReadWind, RefusesKeysOfAnotherKind) {
   EXPECT_NE(faultsOf("wind: {primitives: [{name: a, kind: breeze, core_radius: 3}]}")
                 .find("core_radius is not a known key"),
             std::string::npos);
+  EXPECT_NE(faultsOf("wind: {primitives: [{name: a, kind: wake, velocity: [1, 0, 0]}]}")
+                .find("velocity is not a known key"),
+            std::string::npos);
 }
 
 TEST(ReadWind, ReportsAllFaultsAtOnce) {
@@ -112,17 +122,19 @@ wind:
     - {name: e, kind: disk, trajectory: [{t: 1}, {t: 1, position: [0, 0, 0], pose: 1}]}
     - {name: e, kind: gust, velocity: [0, 0, 3]}
     - {name: f, kind: breeze, attached_frame: drone}
+    - {name: g, kind: wake, position: [0, 0, 1]}
 )");
   for (const char* part :
        {"seed = '-1' is not a whole number", "sed is not a known key",
         "primitives[0]: primitive 0: name is empty",
-        "primitives[1]: kind = 'whirl' is none of disk, breeze, gust, tornado, blast",
+        "primitives[1]: kind = 'whirl' is none of disk, breeze, gust, tornado, blast, wake",
         "primitives[2]: kind is missing", "primitives[3]: end is not after start",
         "primitives[4]: position and trajectory are both given",
         "primitives[5]: trajectory[0]: position is missing",
         "primitives[5]: trajectory[1]: pose is not a known key", "trajectory[1].stamp = 1.000000 s",
         "primitives[6]: name = 'e' is already in use", "velocity has no horizontal part",
-        "is given, but a breeze is everywhere"})
+        "is given, but a breeze is everywhere",
+        "'g': attached_frame, orbit_radius and a trajectory of two way points are missing"})
     EXPECT_NE(faults.find(part), faults.npos) << part << "\nnot in\n" << faults;
 }
 

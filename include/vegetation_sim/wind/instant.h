@@ -15,14 +15,15 @@ struct Term {
   Vec3 centre{Vec3::Zero()};  ///< [m]
   double radius{1.0};         ///< [m]
   bool smooth{true};          ///< envelope: smootherStep of (r-d)/r, else (r-d)/r
-  /// Velocity in the middle of a disk or gust, fade and sine included [m/s]. Unused by tornado and
-  /// blast.
+  /// Velocity in the middle of a disk, gust or wake, fade and sine included [m/s]. Unused by
+  /// tornado and blast.
   Vec3 amplitude{Vec3::Zero()};
-  Vec3 direction{Vec3::UnitX()};  ///< gust: horizontal unit vector along which the front moves
-  double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust: lengths [m]
-  double travel{0.0};  ///< gust: distance of the front in the second that a bound covers [m]
-  double core{1.0};    ///< tornado, blast: radius of the peak [m]
-  double speed{0.0};   ///< tornado, blast: peak, fade included [m/s]
+  /// gust, wake: horizontal unit vector along which the front or body moves
+  Vec3 direction{Vec3::UnitX()};
+  double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust, wake (without rise): lengths [m]
+  double travel{0.0};                ///< gust, wake: motion in the second that a bound covers [m]
+  double core{1.0};                  ///< tornado, blast: radius of the peak [m]
+  double speed{0.0};                 ///< tornado, blast: peak, fade included [m/s]
   double inflow{0.0}, updraft{0.0};  ///< tornado: fractions
   double peak{0.0};  ///< largest speed that the term reaches over its cycle, fade included [m/s]
 };

@@ -12,9 +12,9 @@
 
 namespace vegetation_sim::wind {
 
-enum class Kind { DISK, BREEZE, GUST, TORNADO, BLAST };
+enum class Kind { DISK, BREEZE, GUST, TORNADO, BLAST, WAKE };
 
-/// Returns "disk", "breeze", "gust", "tornado", "blast", in the order of Kind.
+/// Returns "disk", "breeze", "gust", "tornado", "blast", "wake", in the order of Kind.
 const std::vector<std::string>& kindNames();
 
 /// Profile of a disk over the distance d from its centre.
@@ -49,21 +49,26 @@ struct Primitive {
   double repeat{0.0};         ///< gust: period of repetition; 0 = once [s]
 
   Vec3 velocity{Vec3(5.0, 0.0, 0.0)};  ///< amplitude (disk), mean (breeze), peak (gust) [m/s]
-  double radius{10.0};  ///< radius of influence; gust: half width; breeze: unused [m]
-  double omega{2.0};    ///< disk: angular frequency [rad/s]
-  double phase{0.0};    ///< disk: phase psi [rad] (S1-16)
+  /// radius of influence; gust: half width; wake: radius of the body; breeze: unused [m]
+  double radius{10.0};
+  double omega{2.0};                    ///< disk: angular frequency [rad/s]
+  double phase{0.0};                    ///< disk: phase psi [rad] (S1-16)
   Envelope envelope{Envelope::SMOOTH};  ///< disk
   double turbulence{0.2};               ///< breeze: rms of the along-wind fluctuation / mean speed
   double length_scale{40.0};            ///< breeze: integral length of the turbulence [m]
-  double front_speed{6.0};      ///< gust: speed at which the front moves along `velocity` [m/s]
-  double rise_length{5.0};      ///< gust: length of the front, from nothing to full strength [m]
-  double plateau_length{10.0};  ///< gust: length at full strength behind the front [m]
-  /// gust: length from full strength to nothing behind the plateau [m]
+  double front_speed{6.0};  ///< gust: speed at which the front moves along `velocity` [m/s]
+  double rise_length{5.0};  ///< gust: length of the front, from nothing to full strength [m]
+  /// gust: length at full strength behind the front; wake: length behind the centre that follows
+  /// the law of momentum [m]
+  double plateau_length{10.0};
+  /// gust, wake: length from there to nothing [m]
   double decay_length{25.0};
   double speed{10.0};       ///< tornado: peak tangential speed; blast: peak outflow [m/s]
   double core_radius{2.0};  ///< tornado, blast: radius of the peak speed [m]
-  double inflow{0.3};       ///< tornado: speed towards the axis / tangential speed
-  double updraft{0.2};      ///< tornado: upward speed / tangential speed
+  /// tornado: speed towards the axis / tangential speed; wake: speed of the air that flows into the
+  /// place of the body / speed of the body
+  double inflow{0.3};
+  double updraft{0.2};  ///< tornado: upward speed / tangential speed
 };
 
 /// Declares the numeric fields of `p` that its kind uses (not stamps, name or trajectory).

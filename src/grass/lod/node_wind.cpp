@@ -50,14 +50,15 @@ NodeWind::Span NodeWind::spanOf(double min_x, double max_x, double min_y, double
 NodeWind::Span NodeWind::maskOf(const wind::Term& term) const {
   constexpr double HAIR = 1e-6;
   const double x = term.centre.x(), y = term.centre.y(), r = term.radius + HAIR;
-  if (term.kind != wind::Kind::GUST) return spanOf(x - r, x + r, y - r, y + r);
-  // The mask is a strip behind the front, as wide as the gust.
-  const double length = term.rise + term.plateau + term.decay + HAIR;
-  const double back_x = -length * term.direction.x(), back_y = -length * term.direction.y();
-  const double side_x = r * std::fabs(term.direction.y()) + HAIR;
-  const double side_y = r * std::fabs(term.direction.x()) + HAIR;
-  return spanOf(x + std::min(0.0, back_x) - side_x, x + std::max(0.0, back_x) + side_x,
-                y + std::min(0.0, back_y) - side_y, y + std::max(0.0, back_y) + side_y);
+  if (!wind::hasStrip(term.kind)) return spanOf(x - r, x + r, y - r, y + r);
+  const wind::Strip strip = stripOf(term);
+  const double ahead = strip.ahead + HAIR, behind = strip.behind + HAIR, side = strip.side + HAIR;
+  const double nx = term.direction.x(), ny = term.direction.y();
+  const double side_x = side * std::fabs(ny) + HAIR, side_y = side * std::fabs(nx) + HAIR;
+  return spanOf(x + std::min(ahead * nx, -behind * nx) - side_x,
+                x + std::max(ahead * nx, -behind * nx) + side_x,
+                y + std::min(ahead * ny, -behind * ny) - side_y,
+                y + std::max(ahead * ny, -behind * ny) + side_y);
 }
 
 void NodeWind::want(const std::vector<TilePlace>* tiles) {

@@ -26,11 +26,12 @@ constexpr double BREEZE_HEIGHT = 8.0;  // [m] of the arrow of a breeze
 constexpr double TORNADO_HEIGHT = 20.0;
 
 std_msgs::ColorRGBA colourOf(Kind kind, double alpha) {
-  constexpr std::array<std::array<float, 3>, 5> COLOURS = {{{0.20f, 0.55f, 0.95f},
+  constexpr std::array<std::array<float, 3>, 6> COLOURS = {{{0.20f, 0.55f, 0.95f},
                                                             {0.55f, 0.80f, 0.95f},
                                                             {0.95f, 0.70f, 0.20f},
                                                             {0.75f, 0.40f, 0.85f},
-                                                            {0.95f, 0.40f, 0.35f}}};
+                                                            {0.95f, 0.40f, 0.35f},
+                                                            {0.35f, 0.80f, 0.55f}}};
   const auto& rgb = COLOURS[static_cast<std::size_t>(kind)];
   std_msgs::ColorRGBA colour;
   colour.r = rgb[0];
@@ -102,11 +103,24 @@ void paintGust(Painter& painter, const Term& term) {
   painter.arrow((full + tail) * 0.5, term.amplitude);
 }
 
+void paintWake(Painter& painter, const Term& term) {
+  const wind::Strip strip = stripOf(term);
+  const Vec3 across(-term.direction.y(), term.direction.x(), 0.0);
+  const Vec3 tail = term.centre - term.direction * strip.behind;
+  const Vec3 near = across * term.radius, far = across * (strip.side / wind::WAKE_EDGE);
+  painter.ring("influence", term.centre, term.radius);
+  painter.line("plateau", {term.centre + near, term.centre - near, tail - far, tail + far,
+                           term.centre + near});
+  painter.arrow(term.centre, term.amplitude);
+}
+
 void paintTerm(Painter& painter, const Term& term) {
   const double wide = 2.0 * term.radius, core = 2.0 * term.core;
   switch (term.kind) {
     case Kind::GUST:
       return paintGust(painter, term);
+    case Kind::WAKE:
+      return paintWake(painter, term);
     case Kind::TORNADO:
       painter.ring("influence", term.centre, term.radius);
       painter.solid("core", Marker::CYLINDER, term.centre + Vec3(0.0, 0.0, 0.5 * TORNADO_HEIGHT),

@@ -15,7 +15,7 @@
 namespace vegetation_sim {
 
 /// Draws the wind field at the time of rviz: arrows of the velocity around the viewer, and the
-/// bounds of each gust, disc, tornado and blast.
+/// bounds of each gust, disc, tornado, blast and wake.
 class WindDisplay : public SceneryDisplay {
   Q_OBJECT
  public:

@@ -118,6 +118,7 @@ void appendTerm(const wind::Term& term, const terrain::HeightMap& ground, const 
       appendArrow(base, Vec3(0.0, 0.0, 2.0 * style.scale * term.peak), colour, mesh);
       break;
     case wind::Kind::GUST:
+    case wind::Kind::WAKE:
       appendArrow(base, 2.0 * style.scale * term.peak * term.direction, colour, mesh);
       break;
     default:

@@ -21,9 +21,9 @@ WindProperties::WindProperties(rviz::Display& display) {
   full_speed_ =
       addNumber("Full Speed", 12.f, "Speed of red arrows; arrows of slow wind are blue [m/s].",
                 0.1f, 200.f, display);
-  shapes_ = addFlag("Shapes", true,
-                    "Draw each gust, disc, tornado and blast on the ground, with its direction.",
-                    display);
+  shapes_ = addFlag(
+      "Shapes", true,
+      "Draw each gust, disc, tornado, blast and wake on the ground, with its direction.", display);
   addRate(display, "Arrows move");
   addScenery(display, "Draw grass, unless another display has a ground.", false);
 }

@@ -12,6 +12,7 @@
 
 #include <hwy/highway.h>
 
+#include "wind/laws.h"
 #include "wind/sampling/batch_wind.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,6 +21,7 @@ namespace vegetation_sim::forest::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<float>;
 using Lanes = hn::Vec<Tag>;
+using BitsTag = hn::RebindToSigned<Tag>;
 
 struct Lanes3 {
   Lanes x, y, z;
@@ -104,6 +106,44 @@ HWY_INLINE void addBlast(const FloatTerm& t, Lanes dx, Lanes dy, Lanes dz, Lanes
   v.z = v.z + out * dz;
 }
 
+// Returns e^-x on [0, 9] with a relative error of 3e-7: e^-x = 2^-n e^(n ln 2 - x), a Taylor series
+// on |n ln 2 - x| <= ln 2 / 2. n ln 2 is computed in two parts.
+HWY_INLINE Lanes decayOf(Lanes x) {
+  const Lanes n = hn::Round(x * all(1.44269504f));
+  const Lanes r = (n * all(0.693145752f) - x) + n * all(1.42860677e-06f);
+  const Lanes low = (all(1.f) + r) + (r * r) * (all(0.5f) + r * all(1.f / 6.f));
+  const Lanes high = all(1.f / 24.f) + r * (all(1.f / 120.f) + r * all(1.f / 720.f));
+  const auto exponent = hn::Set(BitsTag(), 127) - hn::ConvertTo(BitsTag(), n);
+  const Lanes power = hn::BitCast(Tag(), hn::ShiftLeft<23>(exponent));
+  return power * (low + (r * r) * (r * r) * high);
+}
+
+// Returns x^(-1/3) of positive numbers with a relative error of 3e-7. A third of the exponent is
+// within 4 %, and each of Newton's steps squares the error and doubles it.
+HWY_INLINE Lanes inverseCubeRoot(Lanes x) {
+  const Lanes bits = hn::ConvertTo(Tag(), hn::BitCast(BitsTag(), x));
+  const auto third = hn::ConvertTo(BitsTag(), bits * all(1.f / 3.f));
+  Lanes y = hn::BitCast(Tag(), hn::Set(BitsTag(), 0x54A2FA8C) - third);
+  for (int i = 0; i < 3; ++i) y = y * (all(4.f / 3.f) - all(1.f / 3.f) * (x * y * y * y));
+  return y;
+}
+
+HWY_INLINE void addWake(const FloatTerm& t, Lanes dx, Lanes dy, Lanes dz, Lanes3& v) {
+  constexpr float EDGE = static_cast<float>(wind::WAKE_EDGE);
+  constexpr float SPREAD = static_cast<float>(wind::WAKE_SPREAD);
+  const Lanes behind = hn::Zero(Tag()) - (dx * all(t.nx) + dy * all(t.ny));
+  const Lanes beside = dy * all(t.nx) - dx * all(t.ny);
+  const Lanes radii = hn::Max(behind * all(t.inverse_radius), all(-1.f));
+  const Lanes narrowing = inverseCubeRoot(all(1.f) + radii * all(1.f / SPREAD));
+  const Lanes b = hn::Sqrt(beside * beside + dz * dz) * all(t.inverse_radius);
+  const Lanes widths = hn::Min(b * narrowing, all(EDGE));
+  const Lanes across =
+      decayOf(widths * widths) * (all(1.f) - smootherStep(widths - all(EDGE - 1.f)));
+  const Lanes end = all(1.f) - smootherStep((behind - all(t.plateau)) * all(t.decay));
+  const Lanes along = smootherStep(radii + all(1.f)) * end;
+  add(v, along * (narrowing * narrowing) * across, t.vx, t.vy, t.vz);
+}
+
 HWY_INLINE Lanes3 windAt(const FloatWind& wind, const Lanes3& p) {
   Lanes3 v{all(wind.vx), all(wind.vy), all(wind.vz)};
   for (const FloatMode& mode : wind.modes) addMode(mode, p, v);
@@ -121,6 +161,9 @@ HWY_INLINE Lanes3 windAt(const FloatWind& wind, const Lanes3& p) {
         break;
       case wind::Kind::BLAST:
         addBlast(t, dx, dy, p.z - all(t.z), v);
+        break;
+      case wind::Kind::WAKE:
+        addWake(t, dx, dy, p.z - all(t.z), v);
         break;
       case wind::Kind::BREEZE:
         break;  // part of mean and modes

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "wind/laws.h"
+
 namespace vegetation_sim::forest {
 namespace {
 
@@ -38,11 +40,12 @@ FloatTerm narrowed(const wind::Term& t) {
 // Returns whether the term is exactly zero everywhere within `reach` of the origin.
 bool isAbsent(const wind::Term& t, double reach) {
   const double x = -t.centre.x(), y = -t.centre.y();
-  if (t.kind != wind::Kind::GUST) return std::sqrt(x * x + y * y) > t.radius + reach;
+  if (!wind::hasStrip(t.kind)) return std::sqrt(x * x + y * y) > t.radius + reach;
   const double behind = -(x * t.direction.x() + y * t.direction.y());
   const double beside = y * t.direction.x() - x * t.direction.y();
-  return std::fabs(beside) > t.radius + reach || behind < -reach ||
-         behind > t.rise + t.plateau + t.decay + reach;
+  const wind::Strip strip = stripOf(t);
+  return std::fabs(beside) > strip.side + reach || behind < -strip.ahead - reach ||
+         behind > strip.behind + reach;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct FloatTerm {
   bool smooth;
   float x, y, z, inverse_radius;
   float vx, vy, vz;                    // amplitude
-  float nx, ny;                        // gust: direction
+  float nx, ny;                        // gust, wake: direction
   float rise, plateau, decay, radius;  // rise and decay inverted
   float inverse_core, speed, inflow, updraft;
 };

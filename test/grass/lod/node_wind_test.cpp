@@ -31,10 +31,13 @@ wind::Field everyKind() {
                                    primitive(wind::Kind::BREEZE, 2, Vec3::Zero(), 10.0),
                                    primitive(wind::Kind::GUST, 3, Vec3(20, 70, 0), 15.0),
                                    primitive(wind::Kind::TORNADO, 4, Vec3(70, 30, 0), 10.0),
-                                   primitive(wind::Kind::BLAST, 5, Vec3(50, 80, 2), 8.0)};
+                                   primitive(wind::Kind::BLAST, 5, Vec3(50, 80, 2), 8.0),
+                                   primitive(wind::Kind::WAKE, 6, Vec3(90, 90, 3), 4.0)};
   out[0].phase = 1.0;
   out[2].epoch = STAMP - 4 * NANOSECONDS_PER_SECOND;
   out[2].velocity = Vec3(3, -4, 0);
+  out[5].trajectory = {{STAMP, Vec3(90, 90, 3)},
+                       {STAMP + 5 * NANOSECONDS_PER_SECOND, Vec3(60, 50, 3)}};
   return wind::Field(out, 5);
 }
 
@@ -185,6 +188,24 @@ TEST(NodeWind, DownwashBendsOutwardAndMovesAlong) {
       EXPECT_GT(std::hypot(a.x(), a.y()), 1.0);
     }
   }
+}
+
+// N11: a wake bends grass along the motion of its body, behind it only.
+TEST(NodeWind, WakeBendsAlongTheMotionBehindTheBody) {
+  const FeatureMap map;
+  const terrain::HeightMap flat;
+  NodeWind air(map, flat);
+  auto wake = primitive(wind::Kind::WAKE, 1, Vec3::Zero(), 1.5);
+  wake.trajectory = {{STAMP, Vec3(60, 50, 0.5)},
+                     {STAMP + NANOSECONDS_PER_SECOND, Vec3(50, 50, 0.5)}};
+  air.update(wind::Field({wake}).at(STAMP), {}, ALL);
+  for (int column = 0; column <= 50; ++column) {
+    const Vec3 a = air.at(column, 25);
+    EXPECT_EQ(a.x() < 0.0, column >= 30 && column <= 47) << column;  // up to 35 m behind
+    EXPECT_EQ(a.y(), 0.0);
+  }
+  EXPECT_GT(air.touched(), 50);
+  EXPECT_LT(air.touched(), 300);
 }
 
 // S2-17: a viewer's tiles may be all that is asked for; those get the same air.

@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests sources that grass_field reads from tf frames and odometry with parameters only (N4), the
-drag on them (N3), and the downwash below a hovering source (N11)."""
+drag on them (N3), the downwash below a hovering source, and the wake of a car (N11)."""
 import math
 import unittest
 
@@ -217,6 +217,29 @@ class GrassSources(unittest.TestCase):
         # A drone that lands treads the grass.
         self.fly(RATE, lambda s: ('drone', 6.0, 14.0, 1.0 - s))
         self.assertGreater(self.grass.at(6.0, 14.2).tilt, 1.4)
+
+    # N11: behind a moving car grass bends along its motion, the less the farther behind; ahead of it
+    # and aside it stands.
+    def test_the_wake_of_a_car_bends_grass_behind_it(self):
+        wake = WindPrimitive(name='slipstream', kind=WindPrimitive.WAKE, radius=1.5, inflow=0.5,
+                             plateau_length=8.0, decay_length=4.0, fade_in=0.2, fade_out=0.2,
+                             attached_frame='car')
+        rospy.wait_for_service('/wind_broadcaster/set_primitive', DEADLINE)
+        answer = rospy.ServiceProxy('/wind_broadcaster/set_primitive', SetWindPrimitive)(wake)
+        self.assertTrue(answer.success, answer.message)
+        wait_for_readers('/tf', '/wind_broadcaster')
+        self.fly(2 * RATE, lambda s: ('car', -12.0 + 16.0 * s, 16.0, 0.5))
+        before = math.inf
+        for behind in (1.0, 3.0, 6.0):
+            bend = self.grass.at(4.0 - behind, 16.0).bend
+            self.assertGreater(bend.x, 0.02)
+            self.assertLess(bend.x, before)
+            self.assertLess(abs(bend.y), 0.05 * bend.x)
+            before = bend.x
+        for x, y in ((8.0, 16.0), (12.0, 16.0), (1.0, 8.0), (-12.0, 16.0)):
+            bend = self.grass.at(x, y).bend
+            self.assertLess(math.hypot(bend.x, bend.y), 1e-3, (x, y))
+        self.assertEqual(self.grass.at(0.0, 16.0).tilt, 0.0)
 
     # A tread on the topic may be in any known tf frame, and body_frame receives its drag.
     def test_a_tread_in_another_frame(self):

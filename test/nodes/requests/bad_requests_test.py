@@ -30,8 +30,8 @@ SPRING = given(stiffness=500.0, damping=10.0, force_limit=50.0, lease=5.0)
 LAW = TreadLaw(**given(radius=0.2, reach=0.4, softness=0.1, load=1.0, recovery=10.0))
 WALKER = AgentSpawn(position=Point(1.0, 1.0, 0.0), goal=Point(2.0, 2.0, 0.0), has_goal=True,
                     **given(speed=1.0, radius=0.3, height=1.7))
-SOURCE = dict(id=0, fade_in=1.0, fade_out=1.0, trajectory=[PLACE], orbit_period=10.0, radius=5.0,
-              velocity=Vector3(2.0, 0.0, 0.0), omega=2.0, speed=5.0, core_radius=1.0,
+SOURCE = dict(id=0, fade_in=1.0, fade_out=1.0, trajectory=[PLACE], orbit_radius=1.0, orbit_period=10.0,
+              radius=5.0, velocity=Vector3(2.0, 0.0, 0.0), omega=2.0, speed=5.0, core_radius=1.0,
               length_scale=10.0, front_speed=3.0, rise_length=1.0, plateau_length=1.0,
               decay_length=1.0)
 CENTRE = 'trajectory', 'orbit_radius', 'orbit_period'
@@ -41,7 +41,8 @@ KINDS = {WindPrimitive.DISK: ('velocity', 'radius', 'omega', 'phase', 'envelope'
          WindPrimitive.BREEZE: ('velocity', 'turbulence', 'length_scale'),
          WindPrimitive.GUST: ('velocity', 'radius') + GUST + CENTRE,
          WindPrimitive.TORNADO: ('radius', 'speed', 'core_radius', 'inflow', 'updraft') + CENTRE,
-         WindPrimitive.BLAST: ('radius', 'speed', 'core_radius') + CENTRE}
+         WindPrimitive.BLAST: ('radius', 'speed', 'core_radius') + CENTRE,
+         WindPrimitive.WAKE: ('radius', 'inflow', 'plateau_length', 'decay_length') + CENTRE}
 OF_ALL_KINDS = 'kind', 'attached_frame', 'fade_in', 'fade_out'
 
 

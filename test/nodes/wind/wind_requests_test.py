@@ -27,23 +27,23 @@ NAN, INF = float('nan'), float('inf')
 
 # Each field with the kinds that use it and values outside its range.
 NUMBERS = [
-    ('fade_in', [0, 1, 2, 3, 4], [-0.1, 601.0]),
-    ('fade_out', [0, 1, 2, 3, 4], [-0.1, 601.0]),
-    ('orbit_radius', [0, 2, 3, 4], [-1.0, 1.1e5]),
-    ('orbit_period', [0, 2, 3, 4], [-1.0, 1.1e6]),
+    ('fade_in', [0, 1, 2, 3, 4, 5], [-0.1, 601.0]),
+    ('fade_out', [0, 1, 2, 3, 4, 5], [-0.1, 601.0]),
+    ('orbit_radius', [0, 2, 3, 4, 5], [-1.0, 1.1e5]),
+    ('orbit_period', [0, 2, 3, 4, 5], [-1.0, 1.1e6]),
     ('repeat', [2], [-1.0, 1.1e6]),
-    ('radius', [0, 2, 3, 4], [0.0, 1.1e5]),
+    ('radius', [0, 2, 3, 4, 5], [0.0, 1.1e5]),
     ('omega', [0], [-1.0, 101.0]),
     ('phase', [0], [-101.0, 101.0]),
     ('turbulence', [1], [-0.1, 1.1]),
     ('length_scale', [1], [0.5, 1001.0]),
     ('front_speed', [2], [-1.0, 201.0]),
     ('rise_length', [2], [0.0, 1.1e4]),
-    ('plateau_length', [2], [-1.0, 1.1e4]),
-    ('decay_length', [2], [0.0, 1.1e4]),
+    ('plateau_length', [2, 5], [-1.0, 1.1e4]),
+    ('decay_length', [2, 5], [0.0, 1.1e4]),
     ('speed', [3, 4], [-201.0, 201.0]),
     ('core_radius', [3, 4], [0.0, 1.1e4]),
-    ('inflow', [3], [-2.1, 2.1]),
+    ('inflow', [3, 5], [-2.1, 2.1]),
     ('updraft', [3], [-2.1, 2.1]),
 ]
 
@@ -96,13 +96,13 @@ class WindRequests(unittest.TestCase):
         return {d.name: d.value for d in self.reconfigure(config).config.doubles}
 
     def test_starts_with_the_scenario(self):
-        self.assertEqual(self.names(), ['breeze', 'disc', 'squall', 'whirl', 'fan'])
+        self.assertEqual(self.names(), ['breeze', 'disc', 'squall', 'whirl', 'fan', 'draught'])
         self.assertEqual(self.field().seed, 7)
         self.assertEqual(self.field().header.frame_id, 'map')
 
     def test_takes_one_of_each_kind(self):
-        for kind in range(5):
-            answer = self.set(primitive(kind, 'new_%d' % kind))
+        for kind in range(6):
+            answer = self.set(primitive(kind, 'new_%d' % kind, orbit_radius=1.0, orbit_period=9.0))
             self.assertTrue(answer.success, answer.message)
             self.assertEqual(self.last('new_%d' % kind).id, answer.id)
             self.assertEqual(self.last('new_%d' % kind).kind, kind)
@@ -156,6 +156,7 @@ class WindRequests(unittest.TestCase):
                 (primitive(trajectory=[PointStamped(), PointStamped()]), 'is not after'),
                 (primitive(trajectory=[PointStamped()] * 4097), 'has 4097 way points'),
                 (primitive(kind=1, attached_frame='drone'), 'but a breeze is everywhere'),
+                (primitive(kind=5), 'so the centre never moves and has no wake'),
                 (primitive(trajectory=[PointStamped()], attached_frame='drone'), 'only one is allowed'),
                 (primitive(attached_frame='/drone'), "begins with '/'")]:
             with self.subTest(text=text):
@@ -311,7 +312,7 @@ class WindRequests(unittest.TestCase):
         self.assertTrue(self.reset().success)
         after = self.field()
         self.assertEqual([p.name for p in after.primitives], [p.name for p in first.primitives])
-        self.assertEqual([p.id for p in after.primitives], [1, 2, 3, 4, 5])
+        self.assertEqual([p.id for p in after.primitives], [1, 2, 3, 4, 5, 6])
         self.assertGreater(after.primitives[0].epoch, before)
         self.assertAlmostEqual(rospy.get_param(NODE + 'breeze_speed'), math.sqrt(17.0))
 

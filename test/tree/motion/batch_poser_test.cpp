@@ -24,6 +24,10 @@ wind::Field everyKind() {
     p.kind = kinds[i];
     out.push_back(p);
   }
+  wind::Primitive wake = makeDisk(7, Vec3::Zero(), 3.0, Vec3(1, 0, 0));
+  wake.kind = wind::Kind::WAKE;
+  wake.trajectory = {{seconds(1.7e9), Vec3(6, 6, 4)}, {seconds(1.7e9 + 9.0), Vec3(60, 50, 4)}};
+  out.push_back(wake);
   wind::Primitive paper = makeDisk(6, Vec3(-3, 2, 0), 20.0, Vec3(1, 1, 0.2));
   paper.envelope = wind::Envelope::PAPER;
   out.push_back(paper);

@@ -32,11 +32,13 @@ constexpr std::int64_t KEY_FRAME = 1800 * 944444;  // A tick of key frames in Un
 WindField allKinds() {
   std::vector<wind::Primitive> all{forest::makeBreeze(1, Vec3(4, -1, 0)),
                                    forest::makeDisk(2, Vec3(9, 9, 0), 90.0, Vec3(3, 1, 0))};
-  for (const wind::Kind kind : {wind::Kind::GUST, wind::Kind::TORNADO, wind::Kind::BLAST}) {
+  for (const wind::Kind kind :
+       {wind::Kind::GUST, wind::Kind::TORNADO, wind::Kind::BLAST, wind::Kind::WAKE}) {
     const auto id = static_cast<std::uint32_t>(all.size()) + 1;
     wind::Primitive p = forest::makeDisk(id, Vec3(20.0 * id, 6, 3), 60.0, Vec3(4, 1, 0));
     p.kind = kind;
     p.epoch = TickGrid(30).timeOf(KEY_FRAME);
+    p.orbit_radius = kind == wind::Kind::WAKE ? 20.0 : 0.0;
     all.push_back(p);
   }
   return toMsg(wind::Field(all, 5), "map", 0);
