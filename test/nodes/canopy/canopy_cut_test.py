@@ -140,7 +140,6 @@ class CanopyCut(unittest.TestCase):
         self.assertEqual(self.cuts(), {})
         loaded = rospy.ServiceProxy('/canopy_animator/load_snapshot', LoadSnapshot)(name='cut')
         self.assertTrue(loaded.success, loaded.message)
-        self.assertEqual(loaded.hash, saved.hash)
         self.again.settle()
         self.run_ticks(2)
         self.assertEqual(self.cuts(), {0: 0.8, 1: 0.2})
