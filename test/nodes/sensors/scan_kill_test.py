@@ -88,12 +88,14 @@ class ScanKill(unittest.TestCase):
             self.killed.kill()
             begun = self.clock.tick
             self.run_ticks(ANSWER + random.randrange(RATE))
+            newest = max(self.steady.clouds())
+            wait_for(lambda: newest in self.killed.clouds(), 'the newest sweep')
             steady, killed = self.steady.clouds(), self.killed.clouds()
             stamps = [s for s in steady if s.to_sec() > begun / RATE]
             both = [s for s in stamps if s in killed]
             self.assertGreater(len(both), 3, 'sweeps of a scanner that was started again')
             self.assertEqual([s for s in both if steady[s] != killed[s]], [])
-            self.assertIn(max(stamps), both)
+            self.assertIn(newest, both)
             compared += len(both)
         self.assertGreater(len(set(steady.values())), len(steady) // 2, 'the scene moves')
         print('vegetation_scanner: %d equal clouds after %d kills' % (compared, KILLS))
