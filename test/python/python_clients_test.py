@@ -182,8 +182,9 @@ class PythonClients(unittest.TestCase):
 
     def test_plants_are_cut_once(self):
         plants = Plants()
-        self.assertEqual(plants.cut((2.0, 0.3), radius=0.3, height=0.5), 1)
-        wait_for(lambda: plants.cut((2.0, 0.3), radius=0.3, height=0.5) == 0, 'the cut')
+        # Lower than the page of the clients cuts it.
+        self.assertEqual(plants.cut((2.0, 0.3), radius=0.3, height=0.2), 1)
+        wait_for(lambda: plants.cut((2.0, 0.3), radius=0.3, height=0.2) == 0, 'the cut')
         plants.set_cutting(False)
         plants.set_cutting(True)
         with self.assertRaisesRegex(VegetationError, 'height = 7 m is outside 0 to 5 m') as raised:
