@@ -120,12 +120,12 @@ TEST(WindLaw, IsTheSameForALatecomer) {  // N2
     request.primitive = disk(name);
     const auto response = call<SetWindPrimitive>("set_primitive", request);
     ASSERT_TRUE(response.success) << response.message;
-    EXPECT_GT(response.id, 5u);
+    EXPECT_GT(response.id, 6u);
   }
   Listener latecomer;
   const wind::Field field = latecomer.wait(0);
   EXPECT_EQ(field.hash(), hashOfBroadcaster());
-  EXPECT_EQ(field.primitives().size(), 8u);
+  EXPECT_EQ(field.primitives().size(), 9u);
   expectSameLaw(field);
 }
 
