@@ -171,7 +171,7 @@ TEST_F(CanopyDisplayTest, WhatIsCutOffIsGoneUntilAReset) {
   const std::vector<std::uint8_t> low = rig.picture();
   rig.reset();
   EXPECT_TRUE(rig.until([&] { return display->drawn().leaves == 2 * (600 + 40 * 6); }));
-  EXPECT_TRUE(rig.until([&] { return difference(low, rig.picture()) > 1.0; }))
+  EXPECT_TRUE(rig.until([&] { return difference(low, rig.picture()) > 0.5; }))
       << difference(low, rig.picture());
 }
 
