@@ -7,6 +7,7 @@
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/canopy/plants_in_area.h"
 #include "nodes/canopy/pushing_bodies.h"
+#include "nodes/cutters/cut_request.h"
 #include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
@@ -104,9 +105,7 @@ void CanopyAnimator::followCutters(Nanoseconds stamp) {
   std::reverse(areas.begin(), areas.end());
   for (const grass::CutArea& area : areas)
     acceptInput("cutter", [&] {
-      Faults faults;
-      check(area, "cutter: ", faults);
-      faults.throwIfAny();
+      checkSwept(area);
       const CanopyEvent event = cutEvent(area);
       if (!event.cut_plants.empty()) inputs_.addFirst(event);
     });

@@ -76,16 +76,10 @@ bool CanopyAnimator::onCut(CutPlants::Request& request, CutPlants::Response& res
   });
 }
 
-// The cuts of a replay are recorded.
 bool CanopyAnimator::onCutting(std_srvs::SetBool::Request& request,
                                std_srvs::SetBool::Response& response) {
-  response.success = !options_.replay;
-  response.message = options_.replay ? "a replay follows its recorded events only"
-                     : request.data  ? "cutters are on"
-                                     : "cutters are off";
-  if (options_.replay) return true;
-  cutters_.setEnabled(request.data != 0);
-  checkpointNow();  // no event shows it
+  // No event shows it.
+  if (switchCutters(request, options_.replay, cutters_, response)) checkpointNow();
   return true;
 }
 

@@ -20,4 +20,20 @@ grass::CutArea areaOf(const GrassCut& cut, const Pose& to_world) {
   return out;
 }
 
+bool switchCutters(const std_srvs::SetBool::Request& request, bool replay, CutterFollower& cutters,
+                   std_srvs::SetBool::Response& response) {
+  response.success = !replay;
+  response.message = replay         ? "a replay follows its recorded events only"
+                     : request.data ? "cutters are on"
+                                    : "cutters are off";
+  if (!replay) cutters.setEnabled(request.data != 0);
+  return !replay;
+}
+
+void checkSwept(const grass::CutArea& area) {
+  Faults faults;
+  check(area, "cutter: ", faults);
+  faults.throwIfAny();
+}
+
 }  // namespace vegetation_sim

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -68,9 +69,7 @@ void GrassField::followCutters(Nanoseconds stamp) {
   std::reverse(areas.begin(), areas.end());
   for (const grass::CutArea& area : areas)
     acceptInput("cutter", [&] {
-      Faults faults;
-      check(area, "cutter: ", faults);
-      faults.throwIfAny();
+      checkSwept(area);
       GrassEvent event;
       event.kind = GrassEvent::CUT;
       event.cut = toMsg(area);

@@ -10,9 +10,9 @@ import rostest
 from vegetation_sim.msg import AgentState, AgentStates, CanopyEvent, PlantContacts
 from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
 
-from canopy_rig import Leaves
+from canopy_rig import ReplayedLeaves
 from crowd_rig import Cart
-from forest_rig import RATE, TickClock, time_of
+from forest_rig import RATE, time_of
 from watched_node import Log, publisher, wait_for_readers
 
 BEGIN = 1000 * RATE
@@ -20,23 +20,11 @@ SPEED = 1.5  # [m/s]
 SIDE = (0.0, 0.0, 1.0)  # in the middle of the nearer shrub
 
 
-class CanopyContacts(unittest.TestCase):
+class CanopyContacts(ReplayedLeaves, unittest.TestCase):
     def setUp(self):
-        self.leaves, self.clock = Leaves(), TickClock(BEGIN)
-        self.again = Leaves('/again/canopy_animator', '/again/')
-        self.again.events = self.leaves.events
         self.contacts = Log('/canopy/contacts', PlantContacts)
-        self.again.wait_until_up('/wind', '/canopy/events')
-        self.clock.begin(self.leaves)
-        self.run_ticks(10)
+        self.begin(BEGIN)
         self.cart = Cart(self.leaves)
-
-    def run_ticks(self, count):
-        """Runs single ticks; before each one the replay has received the events of the previous
-        tick."""
-        for _ in range(count):
-            self.clock.run(1, self.leaves)
-            self.again.settle()
 
     def drive(self, start, ticks):
         """Drives the cart along x, one way per tick."""

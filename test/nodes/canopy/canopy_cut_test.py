@@ -13,9 +13,9 @@ from std_srvs.srv import SetBool, Trigger
 from vegetation_sim.msg import CanopyEvent, CanopyState, ErrorCode, GrassCut
 from vegetation_sim.srv import CutPlants, LoadSnapshot, SaveSnapshot
 
-from canopy_rig import Leaves
+from canopy_rig import ReplayedLeaves
 from crowd_rig import Cart
-from forest_rig import RATE, TickClock, time_of
+from forest_rig import RATE, time_of
 from watched_node import Log
 
 BEGIN = 1000 * RATE
@@ -23,23 +23,11 @@ TOP = 1.6  # of a shrub [m]
 NAN = float('nan')
 
 
-class CanopyCut(unittest.TestCase):
+class CanopyCut(ReplayedLeaves, unittest.TestCase):
     def setUp(self):
-        self.leaves, self.clock = Leaves(), TickClock(BEGIN)
-        self.again = Leaves('/again/canopy_animator', '/again/')
-        self.again.events = self.leaves.events
-        self.again.wait_until_up('/wind', '/canopy/events')
         self.cut = rospy.ServiceProxy('/canopy_animator/cut', CutPlants)
-        self.clock.begin(self.leaves)
-        self.run_ticks(10)
+        self.begin(BEGIN)
         self.cart = Cart(self.leaves)
-
-    def run_ticks(self, count):
-        """Runs single ticks; before each one the replay has received the events of the previous
-        tick."""
-        for _ in range(count):
-            self.clock.run(1, self.leaves)
-            self.again.settle()
 
     def area(self, height, *corners, radius=0.0):
         return GrassCut(outline=[Point(x, y, 0.0) for x, y in corners], radius=radius,

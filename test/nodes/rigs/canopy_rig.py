@@ -12,6 +12,7 @@ from std_msgs.msg import Header
 from vegetation_sim.msg import CanopyEvent, CanopyLayout, CanopyState
 from vegetation_sim.srv import SampleCanopy
 
+from forest_rig import TickClock
 from watched_node import Log, WatchedNode
 
 
@@ -42,6 +43,25 @@ class Leaves(WatchedNode):
     def hashes(self):
         """Returns the published state hashes by stamp."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.hash}
+
+
+class ReplayedLeaves:
+    """Base of a test case: a canopy_animator, one in /again that replays it, and their clock."""
+
+    def begin(self, first_tick):
+        self.leaves, self.clock = Leaves(), TickClock(first_tick)
+        self.again = Leaves('/again/canopy_animator', '/again/')
+        self.again.events = self.leaves.events
+        self.again.wait_until_up('/wind', '/canopy/events')
+        self.clock.begin(self.leaves)
+        self.run_ticks(10)
+
+    def run_ticks(self, count):
+        """Runs single ticks; before each one the replay has received the events of the previous
+        tick."""
+        for _ in range(count):
+            self.clock.run(1, self.leaves)
+            self.again.settle()
 
 
 def half(bits):
