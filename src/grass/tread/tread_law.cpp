@@ -7,7 +7,7 @@
 namespace vegetation_sim::grass {
 
 void describe(FieldVisitor& v, TreadLaw& law) {
-  v.number("radius", law.radius, "m", {0.005, 5.0});
+  v.number("radius", law.radius, "m", TREAD_RADIUS);
   v.number("reach", law.reach, "m", {0.01, 10.0});
   v.number("softness", law.softness, "m", {0.001, 5.0});
   v.number("load", law.load, "", {0.0, 10.0});
@@ -17,7 +17,7 @@ void describe(FieldVisitor& v, TreadLaw& law) {
 void check(TreadLaw law, const std::string& context, Faults& faults) {
   FieldChecker checker(context, faults);
   describe(checker, law);
-  if (law.reach < 1.5 * law.radius)
+  if (TREAD_RADIUS.contains(law.radius) && law.reach < 1.5 * law.radius)
     faults.add(context + "reach = " + std::to_string(law.reach) +
                " m is below 1.5 times radius = " + std::to_string(law.radius) + " m");
 }

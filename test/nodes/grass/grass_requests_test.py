@@ -196,8 +196,10 @@ class GrassRequests(unittest.TestCase):
                             points=points((0, 0), (NAN, 0)))
         self.expect_refused('points[1].y = 20.5 m is outside -20 to 20 m', tread,
                             points=points((0, 0), (0, 20.5)))
-        self.expect_refused('radius = -1 m is outside', tread, points=points((0, 0)),
-                            law=TreadLaw(**given(radius=-1)))
+        for radius in -1, 7:
+            answer = tread(points=points((0, 0)), law=TreadLaw(**given(radius=radius)))
+            self.assertEqual((answer.success, answer.message),
+                             (False, 'law: radius = %d m is outside 0.005 to 5 m' % radius))
         self.expect_refused('reach = 0.2', tread, points=points((0, 0)),
                             law=TreadLaw(**given(radius=0.2, reach=0.2)))
         self.expect_refused('law: radius = 0 m is outside 0.005 to 5 m', tread,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A node refuses a wrong argument of robot.launch with an error that names the parameter which
+"""A wrong argument of robot.launch is refused with an error that names it, or the parameter which
 follows from it, and the value."""
 import roslaunch.config
 import roslaunch.xmlloader
@@ -66,10 +66,16 @@ class RobotArguments(RefusingNode):
                             footprint='[[1, 2], [3, 4], [6]]')
 
     def test_a_radius_out_of_range(self):
-        self.expect_refused('agent_crowd', 'robots', 'radius = -1 m is outside 0.01 to 20 m',
-                            robot_radius='-1')
-        self.expect_refused('grass_field', 'sources', 'radius = -1 m is outside 0.005 to 5 m',
-                            robot_radius='-1')
+        for radius, text in (('-1', 'robot_radius = -1 m is outside 0.01 to 20 m'),
+                             ('20.1', 'robot_radius = 20.1 m is outside 0.01 to 20 m'),
+                             ('nan', 'robot_radius = nan m is outside 0.01 to 20 m'),
+                             ('wide', "could not convert string to float: 'wide'")):
+            with self.subTest(radius=radius):
+                with self.assertRaises(roslaunch.xmlloader.XmlParseException) as caught:
+                    parameters_of('agent_crowd', {'robot_radius': radius})
+                self.assertIn(text, str(caught.exception))
+        self.expect_refused('grass_field', 'sources', 'radius = 6 m is outside 0.005 to 5 m',
+                            robot_radius='6')
 
     def test_keys_and_heights_of_sources(self):
         self.expect_refused('grass_field', 'sources', 'height_gate = -1 m is outside', height_gate='-1')

@@ -16,6 +16,7 @@ namespace vegetation_sim {
 /// Closed range of allowed values.
 struct Range {
   double low, high;
+  bool contains(double value) const { return value >= low && value <= high; }
 };
 
 /// A parameter structure declares each field once, in a free function `describe(FieldVisitor&,

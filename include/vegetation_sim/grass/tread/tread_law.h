@@ -27,6 +27,7 @@ struct TreadLaw {
   double load{1.0};       ///< 1 crushes fully within the radius; a smaller load presses less
   double recovery{60.0};  ///< time until the grass stands again [s], or PERMANENT_RECOVERY
 };
+constexpr Range TREAD_RADIUS{0.005, 5.0};  ///< radii that are allowed [m]
 void describe(FieldVisitor& visitor, TreadLaw& law);
 /// Adds all faults of the law; `context` names its owner.
 void check(TreadLaw law, const std::string& context, Faults& faults);
