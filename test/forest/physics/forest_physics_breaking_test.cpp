@@ -237,6 +237,48 @@ TEST(Cutting, ModesOfATreeFollowItsLoss) {
   EXPECT_EQ(other.hash(), scene.forest.hash());
 }
 
+// A tree in modes that loses a limb swings on: its joints bend as those of the whole tree, and what
+// the limb did to them changes in time. Without its state it would begin at the balance of the
+// wind.
+TEST(Cutting, ATreeInModesDoesNotJump) {
+  const wind::Field storm({makeBreeze(1, Vec3(12.0, 3.0, 0.0))}, 3);
+  Clearing with(storm), without(storm);
+  for (Clearing* scene : {&with, &without}) {
+    scene->run(3.0);
+    scene->forest.setWind(wind::Field());  // the tree swings back
+    scene->run(0.1);
+  }
+  ASSERT_NE(with.forest.sensed().modes.find(0), nullptr);
+  const Tree whole = with.tree(0);
+  const int limb = whole.skeleton.depth_end[0];
+  with.forest.cut({0, limb});
+  with.advance();
+  without.advance();
+  const ModalTreeState* state = with.forest.sensed().modes.find(0);
+  ASSERT_NE(state, nullptr);
+  const Tree left =
+      growTree(with.forest.layout(), 0, with.forest.terrain(), brokenOf(with.forest.broken(), 0));
+  ModalForest anew;
+  const wind::Field& wind = with.forest.snapshot().wind;
+  anew.addTree({with.forest.layout(), with.forest.terrain(), wind, &with.forest.broken()}, 0, false,
+               with.now());
+  const auto before = without.angles(whole, 0, without.now());
+  const auto largest = [&](const ModalTreeState& modes) {
+    const auto after = modalAngles(
+        left, wind.at(with.now()).relativeTo(left.foot),
+        weightsAt(with.forest.sensed().levels.of(0), with.now(), with.forest.layout().motion),
+        &modes, with.now());
+    double out = 0.0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (!left.skeleton.branches[i].broken) out = std::max(out, difference(before[i], after[i]));
+    return out;
+  };
+  const double jump = largest(*state), restart = largest(*anew.find(0));
+  std::printf("largest jump of a joint: %.4f rad, from a new start %.4f rad\n", jump, restart);
+  EXPECT_LT(jump, 0.3 * restart);
+  EXPECT_LT(jump, 0.01);
+}
+
 TEST(Cutting, ReplicasRejectBranchesThatATreeCannotLose) {
   Listeners all;
   StateUpdate update = all.rig.forest.update(true);
