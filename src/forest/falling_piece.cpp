@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tree/growth/broken_branch.h"
 #include "tree/growth/wood.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -12,12 +13,13 @@ namespace vegetation_sim::forest {
 namespace {
 
 constexpr double GRAVITY = 9.81;            // [m/s^2]
-constexpr double LONGEST_FALL = 60.0;       // [s]
+constexpr double LONGEST_FALL = 10.0;       // [s], down 490 m
 constexpr double SEARCH_STEP = 1.0 / 60.0;  // [s]
 constexpr int BISECTIONS = 30;
-constexpr double TURN_TIME = 0.5;       // of the turn on the ground [s]
-constexpr std::size_t TURN_STEPS = 16;  // at which its height is found
-constexpr double SLOWEST_SPIN = 1e-9;   // [rad/s]
+constexpr double TURN_TIME = 0.5;            // of the turn on the ground [s]
+constexpr std::size_t TURN_STEPS = 16;       // at which its height is found
+constexpr double SLOWEST_SPIN = 1e-9;        // [rad/s]
+constexpr std::size_t TIPS_PER_BRANCH = 16;  // whose heights take as long as the growth of a branch
 
 Quat rotationBy(const Vec3& axis, double angle) {
   const SinCos half = sinCos(0.5 * angle);
@@ -31,18 +33,24 @@ FallingPiece::FallingPiece(const Layout& layout, const terrain::HeightMap& terra
     : record_(broken.at(number)) {
   const BrokenBranches before(broken.begin(), broken.begin() + static_cast<std::ptrdiff_t>(number));
   tree_ = growTree(layout, tree, terrain, before);
-  keepPiece(record_.branch, tree_.skeleton);
+  work_ = tree_.skeleton.branches.size();
+  branches_ = keepPiece(record_.branch, tree_.skeleton);
+  tree_.skeleton.branches.shrink_to_fit();
+  tree_.response = std::vector<Response>(branches_.size());
   const Skeleton& skeleton = tree_.skeleton;
   const Species& species = layout.species[tree_.seed.species];
-  const auto root = static_cast<std::size_t>(record_.branch);
-  const Composite body = woodOf(skeleton, species, Material::BEAM).subtree[root];
+  const Composite body = woodOf(skeleton, species, Material::BEAM).subtree.front();
   centre_ = body.moment / body.mass;
-  const Pose& joint = skeleton.branches[root].rest;
+  const Pose& joint = skeleton.branches.front().rest;
   const Quat back = conjugate(joint.orientation);
   points_.push_back(Vec3::Zero());
   for (const Branch& branch : skeleton.branches)
-    if (!branch.broken)
-      points_.push_back(rotate(back, Vec3(tipOf(branch, branch.rest) - joint.position)));
+    points_.push_back(rotate(back, Vec3(tipOf(branch, branch.rest) - joint.position)));
+  for (const Vec3& point : points_) reach_ = std::max(reach_, length(point));
+  const Vec3 arm = rotate(record_.pose.orientation, centre_);
+  velocity_ = record_.velocity + cross(record_.spin, arm);
+  const double speed = length(velocity_);
+  if (speed > FASTEST_PIECE) velocity_ *= FASTEST_PIECE / speed;
   land(terrain);
 }
 
@@ -50,9 +58,8 @@ FallingPiece::FallingPiece(const Layout& layout, const terrain::HeightMap& terra
 Pose FallingPiece::fallenAt(double time) const {
   const Quat& from = record_.pose.orientation;
   const Vec3 arm = rotate(from, centre_);
-  const Vec3 velocity = record_.velocity + cross(record_.spin, arm);
   const Vec3 centre =
-      record_.pose.position + arm + time * velocity - Vec3(0.0, 0.0, 0.5 * GRAVITY * time * time);
+      record_.pose.position + arm + time * velocity_ - Vec3(0.0, 0.0, 0.5 * GRAVITY * time * time);
   const double spin = length(record_.spin);
   Pose out;
   out.orientation =
@@ -73,13 +80,19 @@ double FallingPiece::clearance(const terrain::HeightMap& terrain, const Pose& jo
 
 void FallingPiece::land(const terrain::HeightMap& terrain) {
   double low = 0.0, high = 0.0;
-  while (high < LONGEST_FALL && clearance(terrain, fallenAt(high)) > 0.0) {
+  const auto is_above = [&](double time) {
+    const Pose joint = fallenAt(time);
+    if (joint.position.z() - reach_ > terrain.bounds().max_z) return true;
+    work_ += 1 + points_.size() / TIPS_PER_BRANCH;
+    return clearance(terrain, joint) > 0.0;
+  };
+  while (high < LONGEST_FALL && is_above(high)) {
     low = high;
     high += SEARCH_STEP;
   }
   for (int i = 0; i < BISECTIONS && high > low; ++i) {
     const double middle = 0.5 * (low + high);
-    (clearance(terrain, fallenAt(middle)) > 0.0 ? low : high) = middle;
+    (is_above(middle) ? low : high) = middle;
   }
   fall_time_ = low;
   landed_ = fallenAt(fall_time_);
@@ -118,9 +131,23 @@ Pose FallingPiece::jointAt(double time) const {
   return turnedBy(smoothStep((time - fall_time_) / TURN_TIME));
 }
 
+Vec3 FallingPiece::placeAt(Nanoseconds stamp) const {
+  return jointAt(secondsBetween(record_.stamp, stamp)).position;
+}
+
+// The joint is never farther from the centre of mass than the size, and that falls on a parabola.
+bool FallingPiece::mayReach(const BrokenBranch& record, double size, const Vec3& centre,
+                            double radius) {
+  const double speed =
+      std::min(FASTEST_PIECE, length(record.velocity) + length(record.spin) * size);
+  const Vec3 away = record.pose.position - centre;
+  const double distance = std::sqrt(away.x() * away.x() + away.y() * away.y());
+  return distance <= radius + 3.0 * size + speed * LONGEST_FALL;
+}
+
 std::vector<Pose> FallingPiece::poseAt(Nanoseconds stamp) const {
   const std::vector<Branch>& branches = tree_.skeleton.branches;
-  const Pose& rest = branches[static_cast<std::size_t>(record_.branch)].rest;
+  const Pose& rest = branches.front().rest;
   const Pose joint = jointAt(secondsBetween(record_.stamp, stamp));
   const Quat turn = joint.orientation * conjugate(rest.orientation);
   std::vector<Pose> out(branches.size());

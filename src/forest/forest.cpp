@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {
+namespace {
+
+constexpr int MOST_NEW_MODES = 4;  // computed for trees that lose branches in one tick
+
+}  // namespace
 
 Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                Settings settings) {
@@ -89,10 +95,27 @@ void Forest::advancePhysics(Nanoseconds stamp) {
     detail->modes.advance(snapshot_.wind, snapshot_.stamp, stamp);
   snapshot_.physics.advance(stepContext(), stamp);
   snapshot_.stamp = stamp;
-  for (const Break& broken : snapshot_.physics.breaks())
-    for (TreeDetail* detail : details()) detail->loseBranches(broken.tree);
+  loseBranches();
   updateOffsets(snapshot_.sensed);
   updateOffsets(snapshot_.view);
+}
+
+// Trees in modes swing on in those that they have now. Computing modes takes some milliseconds;
+// trees for which there is no time start anew.
+void Forest::loseBranches() {
+  std::set<std::uint32_t> trees;
+  for (const Break& broken : snapshot_.physics.breaks()) trees.insert(broken.tree);
+  const ModalContext at{layout_, *terrain_, snapshot_.wind, &snapshot_.physics.broken()};
+  int computed = 0;
+  for (const std::uint32_t tree : trees) {
+    const ModalTreeState* like = nullptr;
+    for (TreeDetail* detail : details()) {
+      const bool in_time = like || computed < MOST_NEW_MODES;
+      const ModalTreeState* modes = detail->loseBranches(in_time ? &at : nullptr, tree, like);
+      if (modes && !like) ++computed;
+      if (modes) like = modes;
+    }
+  }
 }
 
 // Notes by how much the joints that a listener gets differ from those of the world where branches

@@ -130,6 +130,7 @@ class Forest {
   std::array<TreeDetail*, 3> details();
   StepContext stepContext() const;
   void advancePhysics(Nanoseconds stamp);
+  void loseBranches();
   void updateOffsets(ListenerDetail& listener);
   void removeSilentSensors();
   void chooseDetail(Nanoseconds before);

@@ -5,9 +5,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Branches of trees that are grown to check one message, about 20 ms; further trees wait for the
+// Branches of trees that are counted to check one message, about 20 ms; further trees wait for the
 // next key frame.
-constexpr std::size_t MOST_GROWN = 65536;
+constexpr std::size_t MOST_COUNTED = 262144;
 constexpr std::size_t MOST_COUNTS = 65536;  // branch counts that are kept
 constexpr std::size_t MOST_AT_ONCE = 64;    // trees whose fine modes one message computes
 
@@ -57,7 +57,7 @@ bool ForestReplica::apply(const StateUpdate& update) {
     return false;
   }
   if (!fitsLayout(update)) {
-    why_ = "the branches of its physical trees are being counted";
+    why_ = "the branches of its physical and broken trees are being counted";
     in_sequence_ = false;
     return false;
   }
@@ -91,7 +91,7 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
   Faults faults;
   const std::uint32_t trees = layout_->treeCount();
   if (branch_counts_.size() > MOST_COUNTS) branch_counts_.clear();
-  std::size_t grown = 0;
+  std::size_t counted = 0;
   for (const StateUpdate::Entry& entry : update.trees) {
     const std::string name = "state: tree " + std::to_string(entry.tree);
     if (entry.tree >= trees) {
@@ -101,9 +101,12 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
     if (entry.promoted.empty() && entry.broken.empty()) continue;
     auto count = branch_counts_.find(entry.tree);
     if (count == branch_counts_.end()) {
-      if (grown > MOST_GROWN) return false;
-      count = branch_counts_.emplace(entry.tree, grow(entry.tree).skeleton.branches.size()).first;
-      grown += count->second;
+      if (counted > MOST_COUNTED) return false;
+      const TreeSeed seed = seedOf(*layout_, entry.tree);
+      count =
+          branch_counts_.emplace(entry.tree, countBranches(seed, layout_->species.at(seed.species)))
+              .first;
+      counted += count->second;
     }
     const auto check_branch = [&, branches = count->second](int branch) {
       if (static_cast<std::size_t>(branch) >= branches)

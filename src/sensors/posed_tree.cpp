@@ -14,18 +14,18 @@
 namespace vegetation_sim::scan {
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id)
-    : PosedTree(forest, id, forest.grow(id)) {
+    : PosedTree(forest, id, forest.grow(id), nullptr) {
   broken_ = brokenOf(forest.broken(), id);
 }
 
 PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id,
                      std::shared_ptr<const forest::FallingPiece> piece)
-    : PosedTree(forest, id, piece->tree()) {
-  piece_ = std::move(piece);
-}
+    : PosedTree(forest, id, piece->tree(), piece) {}
 
-PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree)
+PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree,
+                     std::shared_ptr<const forest::FallingPiece> piece)
     : id_(id),
+      piece_(std::move(piece)),
       tree_(std::move(tree)),
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
       poser_(tree_),
@@ -38,7 +38,10 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, fore
     rods_[i].tip_radius = branches[i].tip_radius;
   }
   addLeaves(forest.layout().species.at(tree_.seed.species));
-  poser_.pose(wind::Instant(), forest::Weights{}, tree_.skeleton.depths(), poses_);
+  if (piece_)
+    narrowPoses(piece_->poseAt(piece_->record().stamp), poses_);
+  else
+    poser_.pose(wind::Instant(), forest::Weights{}, tree_.skeleton.depths(), poses_);
   placeRods();
   rod_tree_.build(rods_, leaf_radii_, origin_);
 }
@@ -48,14 +51,14 @@ void PosedTree::addLeaves(const forest::Species& species) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
   leaves_.resize(branches.size());
   leaf_radii_.assign(branches.size(), 0.0);
-  if (branches.empty()) return;
-  const double scale = std::sqrt(branches[0].base_radius / species.trunk_radius);
+  const double scale = std::sqrt(tree_.skeleton.trunk_radius / species.trunk_radius);
   const double edge = species.leaf_size * scale, radius = LEAF_REACH * edge;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (branches[i].leaves == 0 || radius <= 0.0) continue;
     const double volume = PI * radius * radius * (branches[i].length + 4.0 / 3.0 * radius);
     const double area = forest::LEAF_COVERAGE * edge * edge * branches[i].leaves;
     leaf_radii_[i] = radius;
+    largest_leaves_ = std::max(largest_leaves_, radius);
     leaves_[i] = {LEAF_PROJECTION * area / volume,
                   static_cast<std::uint32_t>(branches[i].key >> 32)};
   }
@@ -87,6 +90,10 @@ void PosedTree::posePiece(Nanoseconds stamp) {
   placeRods();
 }
 
+bool PosedTree::isNear(Nanoseconds stamp, const Vec3& centre, double radius) const {
+  return length(piece_->placeAt(stamp) - centre) <= radius + piece_->reach() + largest_leaves_;
+}
+
 void PosedTree::fit(bool moved, const Vec3& origin) {
   if (moved || origin_ != origin) rod_tree_.fit(rods_, leaf_radii_, origin);
   origin_ = origin;
@@ -108,13 +115,23 @@ void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
   moved_ = moves;
 }
 
+int PosedTree::branchOf(std::size_t part) const {
+  return piece_ ? piece_->branches()[part] : static_cast<int>(part);
+}
+
+std::size_t PosedTree::partOf(int branch) const {
+  if (!piece_) return static_cast<std::size_t>(branch);
+  const std::vector<int>& own = piece_->branches();
+  return static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), branch) - own.begin());
+}
+
 bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
   if (isGone(branch)) return false;
   Meeting meeting;
   const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
   if (wood) {
     nearest = {meeting.distance, isTrunk(branch) ? Label::TRUNK : Label::BRANCH, id_,
-               static_cast<int>(branch), meeting.cosine};
+               branchOf(branch), meeting.cosine};
   }
   const bool leaves = leaf_radii_[branch] > 0.0 && meetLeaves(branch, ray, nearest);
   return wood || leaves;
@@ -132,7 +149,7 @@ bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) con
   if (!mayBeBelow(leaves.extinction * (to - part.from), share)) return false;
   const double way = depthAt(share) / leaves.extinction;
   if (!(part.from + way < to)) return false;
-  nearest = {part.from + way, Label::LEAF, id_, static_cast<int>(branch), LEAF_COSINE};
+  nearest = {part.from + way, Label::LEAF, id_, branchOf(branch), LEAF_COSINE};
   return true;
 }
 

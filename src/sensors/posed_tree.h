@@ -44,11 +44,14 @@ class PosedTree {
     return piece_ && piece_->record() == record;
   }
 
+  /// Returns whether a piece may be in a ball at a stamp.
+  bool isNear(Nanoseconds stamp, const Vec3& centre, double radius) const;
+
   std::uint32_t id() const { return id_; }
   const Vec3& foot() const { return tree_.foot; }  ///< world [m]
   /// Unlit colours of bark and leaves.
   const forest::TreePaint& paint() const { return paint_; }
-  /// Number of branches.
+  /// Number of branches, which are those of the piece alone if it is one.
   std::size_t parts() const { return rods_.size(); }
   Box bounds() const { return rod_tree_.bounds(); }
   /// Returns the branches with the room for their leaves.
@@ -57,6 +60,9 @@ class PosedTree {
 
   const std::vector<Quat>& turns() const { return turns_; }
   const std::vector<Leaves>& leaves() const { return leaves_; }
+  /// Returns the index in the tree of a branch, counted from 0 to parts(), and the other way round.
+  int branchOf(std::size_t part) const;
+  std::size_t partOf(int branch) const;
   bool isTrunk(std::size_t branch) const { return tree_.skeleton.branches[branch].depth == 0; }
   /// Returns the room that the leaves of each branch take around its axis [m]; 0 without leaves.
   const std::vector<double>& leafRadii() const { return leaf_radii_; }
@@ -69,7 +75,8 @@ class PosedTree {
   void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
 
  private:
-  PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree);
+  PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree,
+            std::shared_ptr<const forest::FallingPiece> piece);
   void posePiece(Nanoseconds stamp);
   void fit(bool moved, const Vec3& origin);
   void addLeaves(const forest::Species& species);
@@ -91,7 +98,8 @@ class PosedTree {
   std::vector<Leaves> leaves_;  ///< of each branch
   std::vector<double> leaf_radii_;
   RodTree rod_tree_;
-  Vec3 origin_;  ///< of rod_tree_
+  Vec3 origin_;                 ///< of rod_tree_
+  double largest_leaves_{0.0};  ///< of leaf_radii_
   bool moved_{true};
 };
 

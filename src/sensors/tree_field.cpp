@@ -27,41 +27,55 @@ std::vector<std::uint32_t> nearestFirst(const forest::ForestReplica& forest, con
   return out;
 }
 
-// Trees that stand still are fitted anew only where a moving sensor enters another cell of a grid.
-Vec3 originNear(const Vec3& place) {
+// Trees that stand still are fitted anew only where a moving sensor enters another cell of a grid,
+// and is beyond its border by a quarter of the cell.
+Vec3 originNear(const Vec3& place, const Vec3& before) {
   constexpr double CELL = 8.0;  // [m]
+  if ((place - before).cwiseAbs().maxCoeff() <= 0.75 * CELL) return before;
   return CELL * (place / CELL).array().round().matrix();
 }
 
 }  // namespace
 
-// Adds the pieces that may be in the ball; those that exceed the limit are left out.
+// Adds the pieces in the ball; those that exceed the limit are left out, and are not grown again
+// before there is room.
 void Trees::addPieces(const forest::ForestReplica& forest, const Vec3& centre, double radius,
-                      Known& known) {
+                      Nanoseconds stamp) {
+  Pieces known = std::exchange(pieces_, {});
   if (forest.broken().empty()) return;
-  std::uint32_t id = forest.layout().treeCount();
+  std::uint32_t next_id = forest.layout().treeCount();
+  std::size_t work = 0;
   for (const forest::PieceKey& key : piecesOf(forest.broken())) {
+    const std::uint32_t id = next_id++;
     const forest::BrokenBranches& broken = brokenOf(forest.broken(), key.tree);
     const forest::BrokenBranch& record = broken[key.number];
-    std::shared_ptr<PosedTree>& piece = known[id];
     const forest::TreeSeed seed = seedOf(forest.layout(), key.tree);
-    const double reach = seed.scale * sizeBound(forest.layout().species[seed.species]);
-    if (length(record.pose.position - centre) <= radius + reach) {
-      if (!piece || !piece->isPiece(record)) {
-        piece = std::make_shared<PosedTree>(
-            forest, id,
-            std::make_shared<const forest::FallingPiece>(forest.layout(), forest.terrain(),
-                                                         key.tree, broken, key.number));
-        ++grown_;
-      }
-      if (fits(piece->parts())) {
-        branches_ += piece->parts();
-        trees_.push_back(std::move(piece));
-      } else {
-        ++left_out_;
-      }
+    const double size = seed.scale * sizeBound(forest.layout().species[seed.species]);
+    if (!forest::FallingPiece::mayReach(record, size, centre, radius)) continue;
+    Piece& piece = pieces_[{key.tree, key.number}];
+    piece = std::move(known[{key.tree, key.number}]);
+    if (!(piece.record == record)) piece = {record, nullptr, 0};
+    if (!hasRoom(piece) || (!piece.tree && work >= most_branches_)) {
+      piece.tree.reset();
+      ++left_out_;
+      continue;
     }
-    ++id;
+    if (!piece.tree || piece.tree->id() != id) {
+      const auto falling = std::make_shared<const forest::FallingPiece>(
+          forest.layout(), forest.terrain(), key.tree, broken, key.number);
+      work += falling->work();
+      piece.tree = std::make_shared<PosedTree>(forest, id, falling);
+      piece.parts = piece.tree->parts();
+      ++grown_;
+    }
+    if (!piece.tree->isNear(stamp, centre, radius)) continue;
+    if (fits(piece.parts)) {
+      branches_ += piece.parts;
+      trees_.push_back(piece.tree);
+    } else {
+      piece.tree.reset();
+      ++left_out_;
+    }
   }
 }
 
@@ -77,6 +91,7 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   if (layout_hash_ != forest.layoutHash()) {
     known.clear();
     sizes_.clear();
+    pieces_.clear();
   }
   layout_hash_ = forest.layoutHash();
   branches_ = 0;
@@ -97,13 +112,13 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
     trees_.push_back(std::move(tree));
   }
   left_out_ = near.size() - trees_.size();
-  addPieces(forest, centre, radius, known);
+  addPieces(forest, centre, radius, stamp);
   const wind::Instant wind = forest.wind().at(stamp);
-  const Vec3 origin = originNear(centre);
+  origin_ = originNear(centre, origin_);
   const std::size_t parts = threads.size();
   threads.run(parts, [&](std::size_t first) {
     for (std::size_t i = first; i < trees_.size(); i += parts)
-      trees_[i]->follow(forest, stamp, wind, origin);
+      trees_[i]->follow(forest, stamp, wind, origin_);
   });
   std::vector<const RodTree*> rods;
   first_ranks_.clear();
@@ -113,7 +128,7 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
     first_ranks_.push_back(rank);
     rank += tree->parts();
   }
-  rods_.set(rods, origin, threads);
+  rods_.set(rods, origin_, threads);
 }
 
 void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {

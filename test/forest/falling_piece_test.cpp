@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/error_text.h"
 #include "scenes/forest/physics_scene.h"
+#include "tree/growth/broken_branch.h"
 #include "tree/growth/wood.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -35,7 +38,7 @@ struct Falling {
   const Branch& rest() const { return whole.skeleton.branches[root()]; }
   FallingPiece piece() const { return FallingPiece(layout, flat, 0, broken, 0); }
   Vec3 centreOf(const FallingPiece& piece, Nanoseconds stamp) const {
-    const Pose joint = piece.poseAt(stamp)[root()];
+    const Pose joint = piece.poseAt(stamp).front();
     return whole.foot + joint.position + rotate(joint.orientation, Vec3(body.moment / body.mass));
   }
 };
@@ -45,7 +48,6 @@ double lowest(const FallingPiece& piece, Nanoseconds stamp) {
   double out = 1e9;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Branch& branch = piece.tree().skeleton.branches[i];
-    if (branch.broken) continue;
     out = std::min({out, poses[i].position.z(), tipOf(branch, poses[i]).z()});
   }
   return out + piece.tree().foot.z();
@@ -64,9 +66,9 @@ TEST(FallingPiece, CentreOfMassFallsFreely) {
     const Vec3 fallen = start + t * (velocity + cross(spin, arm)) - Vec3(0, 0, 0.5 * 9.81 * t * t);
     EXPECT_NEAR(length(scene.centreOf(piece, PHYSICS_START + seconds(t)) - fallen), 0.0, 1e-9) << t;
   }
-  const Pose joint = piece.poseAt(PHYSICS_START)[scene.root()];
+  const Pose joint = piece.poseAt(PHYSICS_START).front();
   EXPECT_NEAR(length(joint.position - scene.rest().rest.position), 0.0, 1e-12);
-  const Pose later = piece.poseAt(PHYSICS_START + seconds(0.3))[scene.root()];
+  const Pose later = piece.poseAt(PHYSICS_START + seconds(0.3)).front();
   const Quat turn = later.orientation * conjugate(joint.orientation);
   EXPECT_NEAR(2.0 * std::acos(std::fabs(turn.w)), 0.3 * length(spin), 1e-9);
 }
@@ -87,22 +89,51 @@ TEST(FallingPiece, LandsAndLiesOnTheGround) {
   for (std::size_t i = 0; i < rests.size(); ++i)
     EXPECT_TRUE(rests[i].position == later[i].position);
   const double height = scene.centreOf(piece, piece.restsFrom()).z();
-  EXPECT_NEAR(height, scene.whole.foot.z() + rests[scene.root()].position.z(), 1e-6);
+  EXPECT_NEAR(height, scene.whole.foot.z() + rests.front().position.z(), 1e-6);
 }
 
-// Tree and piece together are the whole tree: each branch, with its leaves, is in one of them.
+// Tree and piece together are the whole tree: each branch, with its leaves, is in one of them, at
+// the same place of its limb. The piece has no others, so that it costs what its branches cost.
 TEST(FallingPiece, IsWhatTheTreeHasLost) {
   const Falling scene;
   const Tree left = growTree(scene.layout, 0, scene.flat, scene.broken);
   const FallingPiece piece = scene.piece();
+  const Skeleton& own = piece.tree().skeleton;
+  ASSERT_EQ(own.branches.size(), piece.branches().size());
+  EXPECT_EQ(piece.branches().front(), scene.broken.front().branch);
+  EXPECT_GE(piece.work(), left.skeleton.branches.size());
   int leaves = 0;
+  std::size_t next = 0;
   for (std::size_t i = 0; i < left.skeleton.branches.size(); ++i) {
-    const Branch &there = left.skeleton.branches[i], &here = piece.tree().skeleton.branches[i];
-    EXPECT_NE(there.broken, here.broken) << i;
-    EXPECT_EQ(there.leaves + here.leaves, scene.whole.skeleton.branches[i].leaves) << i;
+    const Branch &there = left.skeleton.branches[i], &before = scene.whole.skeleton.branches[i];
+    if (!there.broken) {
+      EXPECT_EQ(there.leaves, before.leaves) << i;
+      continue;
+    }
+    ASSERT_LT(next, own.branches.size());
+    EXPECT_EQ(piece.branches()[next], static_cast<int>(i));
+    const Branch& here = own.branches[next++];
+    EXPECT_FALSE(here.broken);
+    EXPECT_EQ(here.key, before.key);
+    EXPECT_EQ(here.leaves, before.leaves) << i;
+    EXPECT_EQ(here.rest.position, before.rest.position);
+    const auto in_tree = [&](int at) {
+      return at < 0 ? -1 : piece.branches()[static_cast<std::size_t>(at)];
+    };
+    EXPECT_EQ(in_tree(here.next), before.next);
+    EXPECT_EQ(in_tree(here.parent), next > 1 ? before.parent : -1);
     leaves += here.leaves;
   }
+  EXPECT_EQ(next, own.branches.size());
   EXPECT_GT(leaves, 0);
+  int end = 0;
+  for (const Group& group : own.groups) {
+    EXPECT_EQ(group.begin, end);
+    for (int i = group.begin; i < group.end; ++i)
+      EXPECT_EQ(own.branches[static_cast<std::size_t>(i)].depth, group.depth);
+    end = group.end;
+  }
+  EXPECT_EQ(end, own.depth_end.back());
 }
 
 // A branch that came off before is no part of the limb that carried it.
@@ -115,13 +146,43 @@ TEST(FallingPiece, LacksWhatHadComeOffBefore) {
   ASSERT_NE(first.branch, scene.broken.front().branch);
   scene.broken.insert(scene.broken.begin(), first);
   const FallingPiece limb(scene.layout, scene.flat, 0, scene.broken, 1);
-  const auto& branches = limb.tree().skeleton.branches;
-  EXPECT_TRUE(branches[static_cast<std::size_t>(first.branch)].broken);
-  EXPECT_FALSE(branches[static_cast<std::size_t>(scene.broken[1].branch)].broken);
+  EXPECT_EQ(limb.branches().front(), scene.broken[1].branch);
+  EXPECT_FALSE(std::binary_search(limb.branches().begin(), limb.branches().end(), first.branch));
   const auto order = piecesOf({{3, scene.broken}, {1, {first}}});
   ASSERT_EQ(order.size(), 3u);
   EXPECT_EQ(order[0].tree, 1u);
   EXPECT_EQ(order[2].number, 1u);
+}
+
+// What a state may contain: neither the flight nor the work to find where it ends is long. A piece
+// that meets no ground rests in the air.
+TEST(FallingPiece, TheFastestFallIsBounded) {
+  BrokenBranch fastest;
+  fastest.velocity = Vec3(FASTEST_PIECE, 0.0, FASTEST_PIECE);
+  fastest.spin = Vec3(0.0, 0.0, FASTEST_PIECE_SPIN);
+  Faults faults;
+  check(fastest, "piece: ", faults);
+  EXPECT_TRUE(faults.empty());
+  fastest.velocity.x() = 1e6;
+  fastest.spin.y() = -2000.0;
+  check(fastest, "piece: ", faults);
+  EXPECT_EQ(errorOf([&] { faults.throwIfAny(); }),
+            "piece: velocity.x = 1e+06 m/s is outside -200 to 200 m/s\n"
+            "piece: spin.y = -2000 rad/s is outside -1000 to 1000 rad/s");
+  limitMotion(fastest);
+  EXPECT_NEAR(length(fastest.velocity), FASTEST_PIECE, 1e-9);
+  EXPECT_NEAR(length(fastest.spin), FASTEST_PIECE_SPIN, 1e-9);
+
+  Falling scene(Vec3(FASTEST_PIECE, 0.0, FASTEST_PIECE), Vec3(0.0, 0.0, FASTEST_PIECE_SPIN));
+  const FallingPiece piece = scene.piece();
+  EXPECT_LE(piece.restsFrom(), PHYSICS_START + seconds(11.0));
+  EXPECT_LE(piece.work(), 2 * scene.whole.skeleton.branches.size());
+  const Vec3 way = piece.placeAt(piece.restsFrom()) - piece.placeAt(PHYSICS_START);
+  EXPECT_LE(length(way), 2.0 * 10.0 * FASTEST_PIECE);
+  const double size = sizeBound(scene.layout.species[0]);
+  const Vec3 end = piece.placeAt(piece.restsFrom());
+  EXPECT_TRUE(FallingPiece::mayReach(scene.broken.front(), size, end, 1.0));
+  EXPECT_FALSE(FallingPiece::mayReach(scene.broken.front(), size, Vec3(9000.0, 0.0, 0.0), 1.0));
 }
 
 }  // namespace

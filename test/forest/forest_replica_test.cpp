@@ -51,5 +51,29 @@ TEST(ForestReplica, RejectsAStateThatDoesNotFitItsLayout) {
   EXPECT_TRUE(replica.physicalTrees().empty());
 }
 
+// Trees that have lost branches are counted, not grown: one key frame is enough for hundreds.
+TEST(ForestReplica, OneKeyFrameIsEnoughForManyBrokenTrees) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(18, 10.0), flatTerrain());
+  StateUpdate update = withPhysicalBranch(replica, 0);
+  std::size_t branches = 0;
+  for (std::uint32_t id = 0; id < replica.layout().treeCount(); ++id) {
+    BrokenBranch broken;
+    broken.stamp = REPLICA_START;
+    const TreeSeed seed = seedOf(replica.layout(), id);
+    const std::size_t count = countBranches(seed, replica.layout().species[seed.species]);
+    broken.branch = static_cast<int>(count) - 1;
+    branches += count;
+    if (branches > 200000) break;
+    update.trees.push_back({id, LevelState(), {}, {}, {broken}});
+  }
+  ASSERT_GT(branches, 2u * 65536u);
+  update.trees.erase(update.trees.begin());
+  EXPECT_TRUE(replica.apply(update)) << replica.why();
+  EXPECT_EQ(replica.broken().size(), update.trees.size());
+  update.trees[7].broken[0].branch += 1;
+  EXPECT_THROW(replica.apply(update), InvalidInput);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "reference/sensors/cast_plain.h"
 #include "scenes/sensors/lidar_scene.h"
 
@@ -121,32 +123,48 @@ TEST(Trees, AreMetWithoutWhatHasComeOff) {
   EXPECT_GT(lost, RAYS / 300);
 }
 
-// The piece is met on the ground below, as a plant whose number follows those of the trees.
-TEST(Trees, PiecesAreMetWhereTheyLie) {
-  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
-  const forest::Tree tree = forest.grow(1);
+// Makes tree 1 lose branches in this order. @param motion sets their first motion.
+void lose(forest::ForestReplica& forest, const std::vector<int>& branches,
+          const std::function<void(forest::BrokenBranch&)>& motion = {}) {
+  const forest::Tree tree = growTree(forest.layout(), 1, forest.terrain());
   forest::StateUpdate update;
   update.stamp = START;
   update.layout_hash = forest.layoutHash();
   update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
-  forest::BrokenBranch broken;
-  broken.branch = tree.skeleton.depth_end[0];
-  broken.stamp = START;
-  broken.pose = tree.skeleton.branches[static_cast<std::size_t>(broken.branch)].rest;
-  broken.pose.position = Vec3(tree.foot + broken.pose.position);
-  update.trees.push_back({1, update.base, {}, {}, {broken}});
+  forest::BrokenBranches broken;
+  for (const int branch : branches) {
+    forest::BrokenBranch record;
+    record.branch = branch;
+    record.stamp = START;
+    record.pose = tree.skeleton.branches[static_cast<std::size_t>(branch)].rest;
+    record.pose.position = Vec3(tree.foot + record.pose.position);
+    if (motion) motion(record);
+    broken.push_back(record);
+  }
+  update.trees.push_back({1, update.base, {}, {}, broken});
   ASSERT_TRUE(forest.apply(update)) << forest.why();
+}
+
+// The piece is met on the ground below, as a plant whose number follows those of the trees.
+TEST(Trees, PiecesAreMetWhereTheyLie) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  lose(forest, {forest.grow(1).skeleton.depth_end[0]});
   Trees trees = seen(forest, 0.0);
   ASSERT_EQ(trees.all().size(), 5u);
   const auto piece = trees.all().back();
   EXPECT_EQ(piece->id(), 4u);
   const std::vector<forest::Branch> gone = forest.grow(1).skeleton.branches;
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i].broken) continue;
+    EXPECT_EQ(piece->branchOf(lost), static_cast<int>(i));
+    EXPECT_EQ(piece->partOf(static_cast<int>(i)), lost++);
+  }
+  EXPECT_EQ(piece->parts(), lost);  // no more than it has lost, of which the tree has the rest
   const auto lowest = [&] {
     double out = 1e9;
-    for (std::size_t i = 0; i < gone.size(); ++i) {
-      const Rod& rod = piece->rods()[i];
-      if (gone[i].broken) out = std::min(out, Vec3(rod.base + rod.length * rod.axis).z());
-    }
+    for (const Rod& rod : piece->rods())
+      out = std::min(out, Vec3(rod.base + rod.length * rod.axis).z());
     return out;
   };
   const double above = lowest();
@@ -154,11 +172,90 @@ TEST(Trees, PiecesAreMetWhereTheyLie) {
   ASSERT_EQ(trees.all().back(), piece);
   EXPECT_LT(lowest(), above - 0.5);
   EXPECT_NEAR(lowest(), 0.0, 1e-3);
-  const Rod& rod = piece->rods()[static_cast<std::size_t>(broken.branch)];
+  const Rod& rod = piece->rods().front();
   const Vec3 middle = rod.base + 0.5 * rod.length * rod.axis;
   Hit hit;
   trees.meet(Ray(Vec3(middle + Vec3(0.0, 0.0, 0.2)), Vec3(0.0, 0.0, -1.0)), hit);
   EXPECT_EQ(hit.plant, 4u);
+  EXPECT_TRUE(gone[static_cast<std::size_t>(hit.branch)].broken);
+}
+
+// A piece without room is not grown again at each update, nor is any piece if there is no room.
+TEST(Trees, PiecesBeyondTheBudgetAreGrownOnce) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  const int limb = forest.grow(1).skeleton.depth_end[0];
+  lose(forest, {limb});
+  const std::size_t trees = seen(forest, 0.0).branches() - seen(forest, 0.0).all().back()->parts();
+  Trees few(trees + 1);
+  few.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(few.all().size(), 4u);
+  EXPECT_EQ(few.leftOut(), 1u);
+  const std::uint64_t grown = few.grown();
+  EXPECT_EQ(grown, 5u);
+  for (int i = 1; i < 4; ++i) few.update(forest, SENSOR, 60.0, START + fromSeconds(0.1 * i));
+  EXPECT_EQ(few.grown(), grown);
+  EXPECT_EQ(few.leftOut(), 1u);
+  Trees full(trees);
+  full.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(full.grown(), 4u);
+  EXPECT_EQ(full.leftOut(), 1u);
+}
+
+// A burst of pieces is grown in the course of several updates, each as long as trees would take.
+TEST(Trees, ManyPiecesAppearOneAfterTheOther) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  const forest::Skeleton whole = forest.grow(1).skeleton;
+  std::vector<int> twigs;
+  const int last = static_cast<int>(whole.branches.size()) - 1;
+  for (int i = 0; i < 40; ++i) twigs.push_back(last - i);
+  const std::size_t limit = seen(forest, 0.0).branches() + 100;
+  lose(forest, twigs);
+  ASSERT_GT(whole.branches.size() * twigs.size(), 2 * limit);
+  Trees trees(limit);
+  trees.update(forest, SENSOR, 60.0, START);
+  EXPECT_GT(trees.all().size(), 4u);
+  EXPECT_GT(trees.leftOut(), 0u);
+  EXPECT_EQ(trees.all().size() + trees.leftOut(), 44u);
+  EXPECT_LE((trees.grown() - 5) * whole.branches.size(), limit);
+  for (int i = 0; i < 40; ++i) trees.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(trees.all().size(), 44u);
+  EXPECT_EQ(trees.leftOut(), 0u);
+  EXPECT_EQ(trees.grown(), 44u);
+}
+
+// A piece counts where it is, not where it came off: one that has flown out of reach is left out,
+// and cannot spoil the bounds of the others.
+TEST(Trees, PiecesAreMetInReachOnly) {
+  forest::ForestReplica forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  lose(forest, {forest.grow(1).skeleton.depth_end[0]},
+       [](forest::BrokenBranch& record) { record.velocity = Vec3(190.0, 0.0, 20.0); });
+  Trees trees;
+  trees.update(forest, SENSOR, 60.0, START);
+  EXPECT_EQ(trees.all().size(), 5u);
+  for (const double after : {1.0, 9.0}) {
+    trees.update(forest, SENSOR, 60.0, START + fromSeconds(after));
+    EXPECT_EQ(trees.all().size(), 4u) << after;
+    EXPECT_EQ(trees.leftOut(), 0u) << after;
+  }
+  trees.update(forest, Vec3(SENSOR + Vec3(190.0 * 4.0, 0.0, 0.0)), 250.0, START + fromSeconds(9.0));
+  ASSERT_EQ(trees.all().size(), 1u);
+  EXPECT_EQ(trees.all().front()->id(), 4u);
+}
+
+// A sensor that sways across the border of a cell moves the origin once.
+TEST(Trees, AreNotFittedAnewForASensorThatSways) {
+  const auto forest = movingForest(forest::gridLayout(2, 9.0), wind::Field());
+  Trees trees;
+  trees.update(forest, Vec3(5.9, 0.0, 1.0), 60.0, START);
+  EXPECT_EQ(trees.origin(), Vec3(0.0, 0.0, 0.0));
+  bool crossed = false;
+  for (const double x : {4.1, 3.9, 6.1, 5.9, 3.9, 4.1, 2.1, 6.1, 9.9}) {
+    trees.update(forest, Vec3(x, 0.0, 1.0), 60.0, START);
+    crossed = crossed || x > 6.0;
+    EXPECT_EQ(trees.origin(), Vec3(crossed ? 8.0 : 0.0, 0.0, 0.0)) << x;
+  }
+  trees.update(forest, Vec3(1.0, 0.0, 1.0), 60.0, START);
+  EXPECT_EQ(trees.origin(), Vec3(0.0, 0.0, 0.0));
 }
 
 TEST(Trees, AreTheSameForAnyNumberOfThreads) {

@@ -29,10 +29,16 @@ void TreeDetail::prune(Nanoseconds stamp, double transition) {
   modes.removeFaded(levels, stamp, transition);
 }
 
-void TreeDetail::loseBranches(std::uint32_t tree) {
-  modes.removeTree(tree);
-  begun.erase(tree);
+const ModalTreeState* TreeDetail::loseBranches(const ModalContext* at, std::uint32_t tree,
+                                               const ModalTreeState* like) {
   changed.insert(tree);
+  begun.erase(tree);
+  const ModalTreeState* out = at ? modes.replaceModes(*at, tree, like) : nullptr;
+  if (out)
+    begun.insert(tree);
+  else
+    modes.removeTree(tree);
+  return out;
 }
 
 void TreeDetail::addTo(StateUpdate& update, const std::vector<std::uint32_t>& physical,

@@ -27,8 +27,12 @@ struct TreeDetail {
   void forgetChanges();
   /// Removes what has no more effect at `stamp`.
   void prune(Nanoseconds stamp, double transition);
-  /// Takes note that a tree has lost branches: its modes end, and the next update contains it.
-  void loseBranches(std::uint32_t tree);
+  /// Takes note that a tree has lost branches: the next update contains it, with its new modes,
+  /// which are returned if there are any.
+  /// @param at null: the modes end.
+  /// @param like see ModalForest::addTree().
+  const ModalTreeState* loseBranches(const ModalContext* at, std::uint32_t tree,
+                                     const ModalTreeState* like);
   /// Completes an update, whose stamp is set, by the detail of the trees with physical joints and
   /// of those that have lost branches or are not at the base, or that have changed since the last
   /// update.

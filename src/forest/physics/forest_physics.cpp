@@ -52,11 +52,11 @@ void ForestPhysics::advance(const StepContext& context, Nanoseconds to) {
     scratch.windows.clear();
   }
   endLeases(to);
-  cutBranches(context, to);
   if (!subtrees_.empty() || !grabs_.empty() || !pushes_.empty() || !bodies_.empty())
     stepAll(context, to);
   else
     context.contacts.releaseTrees();
+  cutBranches(context, to);
   decayReactions(published, secondsBetween(context.stamp, to));
 }
 

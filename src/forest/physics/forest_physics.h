@@ -39,6 +39,7 @@ struct StepContext {
 };
 struct TickContext;
 class TreeSteps;
+class TreePieces;
 
 /// A grab in force and its state between ticks.
 struct HeldGrab : Grab {
@@ -66,6 +67,10 @@ struct Break {
   std::vector<std::uint32_t> grabs;  ///< ids of the grabs that ended with it
 };
 
+/// Number of branches of trees that are grown to cut branches in one tick, about 20 ms; one tree
+/// may exceed it.
+constexpr std::size_t MOST_CUT_BRANCHES = 65536;
+
 /// Checks a request against a layout and the tree that it names. All throw InvalidInput.
 void checkGrab(const Layout& layout, const Tree& tree, const Grab& grab);
 void checkTarget(const Tree& tree, const Vec3& target);
@@ -83,8 +88,9 @@ class ForestPhysics {
   void renewGrab(std::uint32_t id);
   void release(std::uint32_t id);
   void push(const StepContext& context, const Push& push);
-  /// Cuts a branch off at the start of the next tick. What it carries goes with it, and grabs of it
-  /// end.
+  /// Cuts a branch off at the end of the next tick, or of a later one if many are cut at once: a
+  /// tick grows about MOST_CUT_BRANCHES branches of trees for them, tree after tree in the order of
+  /// the requests. What the branch carries goes with it, and grabs of it end.
   void cut(const StepContext& context, const BranchCut& cut);
   void setBody(const Body& body);
   void removeBody(const std::string& id);
@@ -118,6 +124,8 @@ class ForestPhysics {
                          Nanoseconds stamp) const;
   PhysicsFigures figures() const;
   std::size_t branchCount() const;  ///< of physical branches
+  /// Number of trees grown so far to check and make cuts.
+  std::uint64_t grownToCut() const { return grown_to_cut_; }
   void addTo(Hash& hash) const;
   /// Returns a grown tree of the layout.
   using GrowTree = std::function<std::shared_ptr<const Tree>(std::uint32_t tree)>;
@@ -144,10 +152,17 @@ class ForestPhysics {
   void finishTick(Nanoseconds to);
   bool isLoaded(std::uint32_t tree) const;
   Tree grow(const StepContext& context, std::uint32_t tree) const;
+  std::shared_ptr<const Tree> growToCut(const StepContext& context, std::uint32_t tree);
+  void forgetGrown();
   void cutBranches(const StepContext& context, Nanoseconds to);
+  std::size_t cutTree(const StepContext& context, std::uint32_t tree, Nanoseconds to,
+                      std::size_t most);
   void breakOverloaded(const StepContext& context, Nanoseconds to);
-  BrokenBranch pieceOf(const StepContext& context, const BranchCut& at, Nanoseconds stamp);
-  void takeOff(const StepContext& context, Break broken);
+  Break cutOff(const StepContext& context, const BranchCut& cut, const Pose& pose,
+               Nanoseconds stamp);
+  BrokenBranch pieceOf(const StepContext& context, std::uint32_t tree, std::size_t link,
+                       Nanoseconds stamp);
+  void takeOff(const StepContext& context, std::uint32_t tree, TreePieces pieces);
 
   PhysicsSettings settings_;
   HeldGrabs grabs_;
@@ -157,7 +172,10 @@ class ForestPhysics {
   std::map<std::uint32_t, PersistentContacts> persistent_contacts_;
   std::map<std::uint32_t, std::vector<BranchLoad>> contact_loads_;  // of the last tick
   std::vector<EndedGrab> ended_;
-  std::vector<BranchCut> cuts_;  // at the next tick
+  std::vector<BranchCut> cuts_;                                 // at the next ticks
+  std::map<std::uint32_t, std::shared_ptr<const Tree>> grown_;  // cache between two ticks, for cuts
+  std::size_t grown_branches_{0};                               // of grown_
+  std::uint64_t grown_to_cut_{0};
   BrokenTrees broken_;
   std::vector<Break> breaks_;  // of the last tick
   std::vector<Reaction> reactions_;

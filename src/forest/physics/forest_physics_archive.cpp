@@ -142,6 +142,7 @@ void ForestPhysics::archive(Archive& a, const Layout& layout, const GrowTree& gr
 
 void ForestPhysics::archiveBroken(Archive& a, const Layout& layout) {
   forest::archiveBroken(a, layout.treeCount(), broken_);
+  if (a.reads()) forgetGrown();
 }
 
 void ForestPhysics::archiveSubtrees(Archive& a, const Layout& layout, const GrowTree& grow) {
@@ -200,6 +201,7 @@ void ForestPhysics::checkRead(const Layout& layout, const GrowTree& grow) const 
     if (found == subtrees_.end()) return grow(id);
     return {std::shared_ptr<const Tree>(), &found->second.tree()};
   };
+  for (const auto& entry : broken_) tree_of(entry.first);  // throws for a branch that it lacks
   for (const auto& [id, grab] : grabs_) {
     if (grab.id != id || id >= next_grab_)
       Archive::reject("grab id = " + std::to_string(grab.id),

@@ -146,6 +146,16 @@ void ModalForest::retain(const std::set<std::uint32_t>& trees) {
   retainIf([&](std::uint32_t tree) { return trees.count(tree) > 0; });
 }
 
+const ModalTreeState* ModalForest::replaceModes(const ModalContext& at, std::uint32_t tree,
+                                                const ModalTreeState* like) {
+  const auto found = modal_states_.find(tree);
+  if (found == modal_states_.end()) return nullptr;
+  ModalTreeState state = std::move(found->second);
+  removeTree(tree);
+  refine(at.wind, like ? *like : modalStateOf(at, tree, false), state);
+  return &modal_states_.insert_or_assign(tree, std::move(state)).first->second;
+}
+
 void ModalForest::removeTree(std::uint32_t tree) {
   retainIf([=](std::uint32_t other) { return other != tree; });
 }

@@ -10,7 +10,7 @@ namespace vegetation_sim::scan {
 
 void meetBranchPlainly(const PosedTree& tree, std::size_t i, const Ray& ray, Hit& nearest) {
   const Rod& rod = tree.rods()[i];
-  const int branch = static_cast<int>(i);
+  const int branch = tree.branchOf(i);
   Meeting meeting;
   if (meet(ray, rod, nearest.distance, meeting))
     nearest = {meeting.distance, tree.isTrunk(i) ? Label::TRUNK : Label::BRANCH, tree.id(), branch,

@@ -52,6 +52,20 @@ std::vector<canopy::LeafBox> LeafedCrowns::boxes() const {
   return out;
 }
 
+LeafedCrowns::Crown LeafedCrowns::growCrown(const canopy::Layout& layout,
+                                            const forest::ForestReplica& forest, std::uint16_t kind,
+                                            const forest::Tree& tree, std::uint32_t id) {
+  Crown out;
+  out.tree = id;
+  out.kind = kind;
+  out.broken = brokenOf(forest.broken(), id);
+  out.rest = twigsOf(growTree(forest.layout(), id, forest.terrain()));
+  out.leaves = canopy::growCrown(layout.kinds[kind], tree.seed.seed, out.rest);
+  dropLeaves(tree.skeleton, out.leaves);
+  out.box = boxOf(out.leaves);
+  return out;
+}
+
 void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplica& forest) {
   crowns_.clear();
   trees_.clear();
@@ -61,27 +75,24 @@ void LeafedCrowns::grow(const canopy::Layout& layout, const forest::ForestReplic
       const auto tree = static_cast<std::uint32_t>(rule.first_tree + i);
       if (tree >= count) break;
       trees_.push_back(forest.grow(tree));
-      Crown crown;
-      crown.tree = tree;
-      crown.kind = rule.kind;
-      crown.broken = brokenOf(forest.broken(), tree);
-      crown.rest = twigsOf(growTree(forest.layout(), tree, forest.terrain()));
-      crown.leaves =
-          canopy::growCrown(layout.kinds[rule.kind], trees_.back().seed.seed, crown.rest);
-      dropLeaves(trees_.back().skeleton, crown.leaves);
-      crown.box = boxOf(crown.leaves);
-      crowns_.push_back(std::move(crown));
+      crowns_.push_back(growCrown(layout, forest, rule.kind, trees_.back(), tree));
     }
 }
 
-bool LeafedCrowns::standsAsGrown(const forest::ForestReplica& forest) const {
-  return std::all_of(crowns_.begin(), crowns_.end(), [&](const Crown& crown) {
-    return crown.broken == brokenOf(forest.broken(), crown.tree);
-  });
+bool LeafedCrowns::regrowBroken(const canopy::Layout& layout, const forest::ForestReplica& forest) {
+  bool out = false;
+  for (std::size_t i = 0; i < crowns_.size(); ++i) {
+    Crown& crown = crowns_[i];
+    if (crown.broken == brokenOf(forest.broken(), crown.tree)) continue;
+    trees_[i] = forest.grow(crown.tree);
+    crown = growCrown(layout, forest, crown.kind, trees_[i], crown.tree);
+    out = true;
+  }
+  return out;
 }
 
 bool LeafedCrowns::update(const canopy::Layout& layout, const SubscribedForest& forest) {
-  if (forests_ == forest.layouts() && standsAsGrown(forest.replica())) return false;
+  if (forests_ == forest.layouts()) return regrowBroken(layout, forest.replica());
   forests_ = forest.layouts();
   grow(layout, forest.replica());
   return true;

@@ -25,9 +25,11 @@ class LeafedCrowns {
 
   /// Grows the crowns of a layout. Trees that the forest does not have are left out.
   void grow(const canopy::Layout& layout, const forest::ForestReplica& forest);
-  /// Grows the crowns again if the layout of the forest has changed, or trees of theirs have lost
+  /// Grows the crowns again if the layout of the forest has changed, or those whose trees have lost
   /// branches. Returns true if so.
   bool update(const canopy::Layout& layout, const SubscribedForest& forest);
+  /// Grows the crowns again whose trees have lost branches. Returns true if there are any.
+  bool regrowBroken(const canopy::Layout& layout, const forest::ForestReplica& forest);
   void clear();
 
   const std::vector<Crown>& crowns() const { return crowns_; }
@@ -38,7 +40,8 @@ class LeafedCrowns {
                          Nanoseconds stamp) const;
 
  private:
-  bool standsAsGrown(const forest::ForestReplica& forest) const;
+  static Crown growCrown(const canopy::Layout& layout, const forest::ForestReplica& forest,
+                         std::uint16_t kind, const forest::Tree& tree, std::uint32_t id);
 
   std::vector<Crown> crowns_;
   std::vector<forest::Tree> trees_;

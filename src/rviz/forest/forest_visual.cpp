@@ -256,39 +256,43 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
 
 // Grows one piece at a time. Those of trees that are not drawn are not drawn either.
 void ForestVisual::updatePieces(const forest::ForestReplica& replica) {
-  const auto is_gone = [&](const Piece& piece) {
-    const auto& broken = brokenOf(replica.broken(), piece.tree->id());
-    return std::none_of(broken.begin(), broken.end(),
-                        [&](const auto& record) { return piece.tree->isPiece(record); });
-  };
-  pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), is_gone), pieces_.end());
-  report_.pieces = pieces_.size();
-  for (const forest::PieceKey& key : piecesOf(replica.broken())) {
-    const auto& broken = brokenOf(replica.broken(), key.tree);
-    const auto is_drawn = [&](const Piece& piece) {
-      return piece.tree->id() == key.tree && piece.tree->isPiece(broken[key.number]);
-    };
-    if (!tree_set_->find(key.tree) || std::any_of(pieces_.begin(), pieces_.end(), is_drawn))
-      continue;
-    Piece piece;
-    piece.tree = std::make_unique<DrawnTree>(
-        replica, key.tree, tree_set_->origin(),
-        std::make_shared<const forest::FallingPiece>(replica.layout(), replica.terrain(), key.tree,
-                                                     broken, key.number));
-    piece.batch = std::make_unique<TreeBatch>(
-        std::vector<DrawnTree*>{piece.tree.get()}, *node_,
-        TreeMaterials{bark_material_.name(), leaf_material_.name(), fading_bark_material_.name(),
-                      fading_leaf_material_.name()});
-    pieces_.push_back(std::move(piece));
-    return;
+  for (auto it = pieces_.begin(); it != pieces_.end();) {
+    const auto& [tree, number] = it->first;
+    const auto& broken = brokenOf(replica.broken(), tree);
+    const bool is_there = number < broken.size() && it->second.tree->isPiece(broken[number]);
+    it = is_there ? std::next(it) : pieces_.erase(it);
   }
+  report_.pieces = pieces_.size();
+  for (const auto& [tree, broken] : replica.broken()) {
+    if (!tree_set_->find(tree)) continue;
+    for (std::size_t number = 0; number < broken.size(); ++number) {
+      if (pieces_.count({tree, number})) continue;
+      pieces_.emplace(std::make_pair(tree, number), growPiece(replica, tree, number));
+      return;
+    }
+  }
+}
+
+ForestVisual::Piece ForestVisual::growPiece(const forest::ForestReplica& replica,
+                                            std::uint32_t tree, std::size_t number) {
+  Piece out;
+  out.tree = std::make_unique<DrawnTree>(
+      replica, tree, tree_set_->origin(),
+      std::make_shared<const forest::FallingPiece>(replica.layout(), replica.terrain(), tree,
+                                                   brokenOf(replica.broken(), tree), number));
+  out.batch = std::make_unique<TreeBatch>(
+      std::vector<DrawnTree*>{out.tree.get()}, *node_,
+      TreeMaterials{bark_material_.name(), leaf_material_.name(), fading_bark_material_.name(),
+                    fading_leaf_material_.name()});
+  return out;
 }
 
 // A piece has the level of detail of its tree.
 void ForestVisual::movePieces(const forest::ForestReplica& replica, Nanoseconds stamp,
                               const Options& options) {
   const wind::Instant wind = replica.wind().at(stamp);
-  for (Piece& piece : pieces_) {
+  for (auto& entry : pieces_) {
+    Piece& piece = entry.second;
     const int level = tree_set_->find(piece.tree->id())->level();
     if (level < 0) continue;
     const bool changed = level != piece.tree->level();

@@ -5,7 +5,10 @@
 #include <OgreSceneNode.h>
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "rviz/forest/tree_batch.h"
@@ -57,6 +60,10 @@ class ForestVisual {
   const ForestReport& report() const { return report_; }
 
  private:
+  struct Piece {
+    std::unique_ptr<DrawnTree> tree;
+    std::unique_ptr<TreeBatch> batch;
+  };
   void select(const forest::ForestReplica& replica, const View& view, const Options& options);
   bool prepare(const View& view, const Options& options);
   void applyDelta();
@@ -67,6 +74,7 @@ class ForestVisual {
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);
   void updatePieces(const forest::ForestReplica& replica);
+  Piece growPiece(const forest::ForestReplica& replica, std::uint32_t tree, std::size_t number);
   void movePieces(const forest::ForestReplica& replica, Nanoseconds stamp, const Options& options);
   void measure(const View& view, const Options& options);
 
@@ -76,11 +84,8 @@ class ForestVisual {
   std::unique_ptr<TreeSet> tree_set_, next_;  // drawn; growing
   std::size_t prepared_{0};                   // number of the next trees with a mesh
   std::vector<std::unique_ptr<TreeBatch>> tree_batches_;
-  struct Piece {
-    std::unique_ptr<DrawnTree> tree;
-    std::unique_ptr<TreeBatch> batch;
-  };
-  std::vector<Piece> pieces_;       // what has come off the drawn trees
+  using Pieces = std::map<std::pair<std::uint32_t, std::size_t>, Piece>;  // by tree and number
+  Pieces pieces_;                   // what has come off the drawn trees
   Vec3 selected_at_{Vec3::Zero()};  // viewer at the selection
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;

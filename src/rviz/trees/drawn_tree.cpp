@@ -106,7 +106,7 @@ void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLo
   shapes_.resize(fade_clock > 0.f && level_ >= 0 ? 1 : 0);
   shapes_.insert(shapes_.begin(), makeShape(level, look));
   level_ = level;
-  poser_.pose(wind::Instant(), forest::Weights{}, depths(), poses_);
+  poseAtRest();
   skin(forest::Flutter());
   moved_ = true;
   paintBark(light, shapes_.front());
@@ -115,6 +115,14 @@ void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLo
   fades_since_ = fade_clock;
   setFade(fade_clock, shapes_.front());
   setFade(-fade_clock, shapes_.back());
+}
+
+// A piece is lit as it was in its tree.
+void DrawnTree::poseAtRest() {
+  if (!piece_) return poser_.pose(wind::Instant(), forest::Weights{}, depths(), poses_);
+  std::vector<Pose> rest;
+  for (const forest::Branch& branch : tree_.skeleton.branches) rest.push_back(branch.rest);
+  narrowPoses(rest, poses_);
 }
 
 void DrawnTree::endFade() {

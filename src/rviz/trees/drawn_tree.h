@@ -89,6 +89,7 @@ class DrawnTree {
   bool movePiece(Nanoseconds stamp);
   Shape makeShape(int level, const TreeLook& look) const;
   int depths() const;
+  void poseAtRest();
   void skin(const forest::Flutter& flutter);
   void paintBark(const forest::LightGrid& light, Shape& shape);
   void paintLeaves(const forest::LightGrid& light, Shape& shape);

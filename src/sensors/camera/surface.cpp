@@ -106,7 +106,7 @@ Surface Surfaces::at(const Ray& ray, const Hit& hit) const {
 
 Surface Surfaces::woodAt(const Vec3& place, const Hit& hit) const {
   const PosedTree& tree = *trees_.at(hit.plant);
-  const auto branch = static_cast<std::size_t>(hit.branch);
+  const std::size_t branch = tree.partOf(hit.branch);
   const Rod& rod = tree.rods()[branch];
   const Vec3 own = rotate(conjugate(tree.turns()[branch]), Vec3(place - rod.base));
   const double bark = fractalNoise({28.0 * own.x(), 28.0 * own.y(), 7.0 * own.z()}, 3, keyOf(hit));
@@ -125,7 +125,7 @@ Surface Surfaces::woodAt(const Vec3& place, const Hit& hit) const {
 // A leaf has the colour of its cell and a normal between that of the crown and its own.
 Surface Surfaces::leafAt(const Vec3& place, const Hit& hit) const {
   const PosedTree& tree = *trees_.at(hit.plant);
-  const auto branch = static_cast<std::size_t>(hit.branch);
+  const std::size_t branch = tree.partOf(hit.branch);
   const Vec3 own = rotate(conjugate(tree.turns()[branch]), Vec3(place - tree.rods()[branch].base));
   const Cell cell = cellAt(own, LEAF_SPOT);
   const std::uint32_t key = keyOf(hit);

@@ -11,10 +11,20 @@
 namespace vegetation_sim::forest {
 namespace {
 
-constexpr double FARTHEST = 2e7, FASTEST = 1e8, FASTEST_SPIN = 1e8;  // [m], [m/s], [rad/s]
+constexpr double FARTHEST = 2e7;  // [m]
 constexpr double NORM_ERROR = 0.001;
 
+void limitLength(Vec3& vector, double most) {
+  const double size = length(vector);
+  if (size > most) vector *= most / size;
+}
+
 }  // namespace
+
+void limitMotion(BrokenBranch& broken) {
+  limitLength(broken.velocity, FASTEST_PIECE);
+  limitLength(broken.spin, FASTEST_PIECE_SPIN);
+}
 
 std::size_t countBroken(const BrokenTrees& trees) {
   std::size_t out = 0;
@@ -42,8 +52,8 @@ void check(const BrokenBranch& broken, const std::string& name, Faults& faults) 
   BrokenBranch copy = broken;
   checker.integer("branch", copy.branch, "", {1, MAX_BRANCHES - 1});
   checker.vector("position", copy.pose.position, "m", {-FARTHEST, FARTHEST});
-  checker.vector("velocity", copy.velocity, "m/s", {-FASTEST, FASTEST});
-  checker.vector("spin", copy.spin, "rad/s", {-FASTEST_SPIN, FASTEST_SPIN});
+  checker.vector("velocity", copy.velocity, "m/s", {-FASTEST_PIECE, FASTEST_PIECE});
+  checker.vector("spin", copy.spin, "rad/s", {-FASTEST_PIECE_SPIN, FASTEST_PIECE_SPIN});
   const Quat& q = broken.pose.orientation;
   double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   checker.number("norm of orientation", norm, "", {1.0 - NORM_ERROR, 1.0 + NORM_ERROR});

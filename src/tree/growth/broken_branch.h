@@ -17,6 +17,11 @@ namespace vegetation_sim::forest {
 
 /// Maximum number of branches of a forest that can come off.
 constexpr std::size_t MOST_BROKEN = 4096;
+/// Largest components of velocity [m/s] and angular velocity [rad/s] of a branch that comes off.
+constexpr double FASTEST_PIECE = 200.0, FASTEST_PIECE_SPIN = 1000.0;
+
+/// Scales velocity and angular velocity down to what check() allows.
+void limitMotion(BrokenBranch& broken);
 
 std::size_t countBroken(const BrokenTrees& trees);
 void addTo(Hash& hash, const BrokenTrees& trees);

@@ -53,13 +53,8 @@ class Grower {
   Grower(const TreeSeed& seed, const Species& species) : seed_(seed), species_(species) {}
 
   Skeleton grow() {
-    std::vector<std::vector<Limb>> limbs{{trunk()}};
     std::size_t count = 0;
-    for (int depth = 0; depth < species_.depths() && !limbs.back().empty(); ++depth) {
-      count += limbs.back().size() * static_cast<std::size_t>(rule(depth).segments);
-      if (depth + 1 < species_.depths()) limbs.push_back(sprout(limbs.back(), depth, count));
-    }
-    if (limbs.back().empty()) limbs.pop_back();
+    const std::vector<std::vector<Limb>> limbs = sproutAll(count);
     out_.branches.reserve(count);
     for (std::size_t depth = 0; depth < limbs.size(); ++depth)
       addBranches(limbs[depth], static_cast<int>(depth));
@@ -67,7 +62,23 @@ class Grower {
     return std::move(out_);
   }
 
+  std::size_t count() const {
+    std::size_t out = 0;
+    sproutAll(out);
+    return out;
+  }
+
  private:
+  // Returns the limbs of each depth, and the number of their branches.
+  std::vector<std::vector<Limb>> sproutAll(std::size_t& count) const {
+    std::vector<std::vector<Limb>> limbs{{trunk()}};
+    for (int depth = 0; depth < species_.depths() && !limbs.back().empty(); ++depth) {
+      count += limbs.back().size() * static_cast<std::size_t>(rule(depth).segments);
+      if (depth + 1 < species_.depths()) limbs.push_back(sprout(limbs.back(), depth, count));
+    }
+    if (limbs.back().empty()) limbs.pop_back();
+    return limbs;
+  }
   const LimbRule& rule(int depth) const { return species_.limbs[static_cast<std::size_t>(depth)]; }
 
   double vary(const Random& random, BranchDraw draw) const {
@@ -206,6 +217,7 @@ class Grower {
   }
 
   void measure() {
+    if (!out_.branches.empty()) out_.trunk_radius = out_.branches.front().base_radius;
     for (const Branch& branch : out_.branches) {
       const Vec3 tip = tipOf(branch, branch.rest);
       out_.height = std::max(out_.height, tip.z());
@@ -237,6 +249,10 @@ double trunkScale(const TreeSeed& seed, const Species& species) {
 
 Skeleton grow(const TreeSeed& seed, const Species& species) {
   return Grower(seed, species).grow();
+}
+
+std::size_t countBranches(const TreeSeed& seed, const Species& species) {
+  return Grower(seed, species).count();
 }
 
 std::uint64_t Skeleton::hash() const {

@@ -1,6 +1,9 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // What comes off a skeleton.
+#include <algorithm>
+#include <utility>
+
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/tree/growth/skeleton.h"
 
@@ -9,8 +12,10 @@ namespace {
 
 constexpr double SHRUNK = 1e-3;  // size of what is gone over its size before
 
-bool canComeOff(const Skeleton& skeleton, int branch) {
-  return branch > 0 && branch < static_cast<int>(skeleton.branches.size());
+[[noreturn]] void rejectBranch(int branch, std::size_t branches) {
+  throw InvalidInput("broken branch = " + std::to_string(branch) + " is outside 1 to " +
+                         std::to_string(static_cast<long>(branches) - 1),
+                     FaultCode::UNKNOWN);
 }
 
 }  // namespace
@@ -32,10 +37,8 @@ void breakOff(const BrokenBranches& broken, Skeleton& skeleton) {
   if (broken.empty()) return;
   std::vector<Branch>& branches = skeleton.branches;
   for (const BrokenBranch& piece : broken) {
-    if (!canComeOff(skeleton, piece.branch))
-      throw InvalidInput("broken branch = " + std::to_string(piece.branch) + " is outside 1 to " +
-                             std::to_string(branches.size() - 1),
-                         FaultCode::UNKNOWN);
+    if (piece.branch < 1 || piece.branch >= static_cast<int>(branches.size()))
+      rejectBranch(piece.branch, branches.size());
     branches[static_cast<std::size_t>(piece.branch)].broken = true;
   }
   for (std::size_t i = 1; i < branches.size(); ++i) {
@@ -54,25 +57,35 @@ void breakOff(const BrokenBranches& broken, Skeleton& skeleton) {
   }
 }
 
-void keepPiece(int branch, Skeleton& skeleton) {
-  std::vector<Branch>& branches = skeleton.branches;
-  if (!canComeOff(skeleton, branch))
-    throw InvalidInput("broken branch = " + std::to_string(branch) + " is outside 1 to " +
-                           std::to_string(branches.size() - 1),
-                       FaultCode::UNKNOWN);
-  std::vector<char> kept(branches.size(), 0);
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    Branch& own = branches[i];
-    const bool carried = own.parent >= 0 && kept[static_cast<std::size_t>(own.parent)];
-    kept[i] = static_cast<int>(i) == branch || carried;
-    if (kept[i] && !carried && own.parent >= 0) {
-      Branch& parent = branches[static_cast<std::size_t>(own.parent)];
-      if (parent.next == branch) parent.next = -1;
-    }
-    if (kept[i]) continue;
-    own.broken = true;
-    own.leaves = 0;
+std::vector<int> keepPiece(int branch, Skeleton& skeleton) {
+  const std::vector<Branch> all = std::exchange(skeleton.branches, {});
+  if (branch < 1 || branch >= static_cast<int>(all.size())) rejectBranch(branch, all.size());
+  std::vector<int> kept;
+  std::vector<int> places(all.size(), -1);  // in `kept`
+  for (std::size_t i = static_cast<std::size_t>(branch); i < all.size(); ++i) {
+    const bool is_root = static_cast<int>(i) == branch;
+    const int parent = all[i].parent;
+    const int below = parent < 0 || is_root ? -1 : places[static_cast<std::size_t>(parent)];
+    if (!is_root && (below < 0 || all[i].broken)) continue;
+    places[i] = static_cast<int>(kept.size());
+    kept.push_back(static_cast<int>(i));
+    skeleton.branches.push_back(all[i]);
+    skeleton.branches.back().parent = below;
   }
+  for (Branch& own : skeleton.branches)
+    if (own.next >= 0) own.next = places[static_cast<std::size_t>(own.next)];
+  const auto place_of = [&](int before) {
+    return static_cast<int>(std::lower_bound(kept.begin(), kept.end(), before) - kept.begin());
+  };
+  for (int& end : skeleton.depth_end) end = place_of(end);
+  std::vector<Group> groups;
+  for (const Group& group : skeleton.groups) {
+    const Group own{place_of(group.begin), place_of(group.end), group.depth};
+    if (own.begin < own.end) groups.push_back(own);
+  }
+  skeleton.groups = std::move(groups);
+  skeleton.rooted = false;
+  return kept;
 }
 
 }  // namespace vegetation_sim::forest

@@ -66,8 +66,7 @@ class Foliage {
     }
     mean_leafy_length_ = std::max(sum / leaves, 1e-3);
     // A young tree has smaller clusters, though not in proportion.
-    if (!skeleton.branches.empty())
-      leaf_scale_ = std::sqrt(skeleton.branches[0].base_radius / species.trunk_radius);
+    leaf_scale_ = std::sqrt(skeleton.trunk_radius / species.trunk_radius);
   }
 
   std::vector<LeafCard> place() const {
@@ -132,19 +131,22 @@ class Foliage {
   }
 
   // A card on a branch that is not drawn is fixed to the nearest drawn ancestor at its rest pose:
-  // joints without vertices are then not posed either (S1-09).
+  // joints without vertices are then not posed either (S1-09). A piece of which nothing is drawn
+  // has its cards on its first branch.
   void carryToDrawn(LeafCard& leaf, const Random& random) const {
     int root = leaf.branch;  // the lowest ancestor that is not drawn
-    while (at(at(root).parent).depth >= detail_.depths) root = at(root).parent;
+    while (at(root).parent >= 0 && at(at(root).parent).depth >= detail_.depths)
+      root = at(root).parent;
+    const int holder = std::max(at(root).parent, 0);
     const Pose& from = at(leaf.branch).rest;
-    const Pose& to = at(at(root).parent).rest;
+    const Pose& to = at(holder).rest;
     Vec3 place = from.position + static_cast<double>(leaf.local[2]) * axisZ(from.orientation);
     Quat turn = from.orientation *
                 Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
     if (detail_.boughs) rootBough(at(root).rest.position, random, place, turn, leaf);
     const Quat back = conjugate(to.orientation);
     const Vec3 local = rotate(back, place - to.position);
-    leaf.branch = at(root).parent;
+    leaf.branch = holder;
     leaf.local = {narrow(local.x()), narrow(local.y()), narrow(local.z())};
     setRotation(back * turn, leaf);
   }

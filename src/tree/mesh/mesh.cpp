@@ -75,7 +75,8 @@ class MeshBuilder {
   // The trunk extends into the ground, so that no slope shows its end, and flares above its roots.
   void addFoot(int branch, int sides) {
     const double radius = at(branch).base_radius;
-    if (at(branch).parent >= 0) return addRing(branch, 0.0, radius, 0.0, sides);
+    if (at(branch).parent >= 0 || !skeleton_.rooted)
+      return addRing(branch, 0.0, radius, 0.0, sides);
     addRing(branch, -3.0 * radius, 1.9 * radius, -3.0 * radius, sides);
     if (sides < 5) return;
     addRing(branch, 0.0, 1.5 * radius, 0.0, sides);

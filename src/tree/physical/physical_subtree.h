@@ -63,6 +63,7 @@ class PhysicalSubtree {
   PhysicalSubtree(std::shared_ptr<const Tree> tree, const Species& species, Material material);
 
   const Tree& tree() const { return *tree_; }
+  std::shared_ptr<const Tree> sharedTree() const { return tree_; }
   const Wood& wood() const { return wood_; }
   bool empty() const { return joints_.empty(); }
   const std::vector<char>& mask() const { return mask_; }  ///< [branches of the tree] physical

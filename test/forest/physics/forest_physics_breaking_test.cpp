@@ -1,34 +1,15 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Branches that are cut or break.
+// Branches that break, and what replicas know of trees that have lost some.
 #include <gtest/gtest.h>
 
 #include "core/error_text.h"
-#include "forest/nearest.h"
-#include "forest/pick.h"
 #include "scenes/forest/modal_forest_scene.h"
-#include "tree/mesh/mesh.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
 constexpr double STRENGTH = 5e7;  // [Pa]
-
-// Returns a copy of the tree as it stands in the forest now.
-Tree standing(const Forest& forest) {
-  return growTree(forest.layout(), 0, forest.terrain(), brokenOf(forest.broken(), 0));
-}
-
-std::vector<int> carriedBy(const Skeleton& skeleton, int branch) {
-  std::vector<int> out;
-  std::vector<char> in(skeleton.branches.size(), 0);
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    const int parent = skeleton.branches[i].parent;
-    in[i] = static_cast<int>(i) == branch || (parent >= 0 && in[static_cast<std::size_t>(parent)]);
-    if (in[i]) out.push_back(static_cast<int>(i));
-  }
-  return out;
-}
 
 /// One trunk of equal segments and constant radius, which stands on a foot that cannot break: a
 /// cantilever from the end of the foot on.
@@ -157,137 +138,6 @@ TEST(Breaking, BreaksAreEqualWithThreadsAndFromASnapshot) {
   EXPECT_EQ(one.rig.forest.hash(), other.hash());
 }
 
-// Cut a limb of an oak: with it goes what it carries, for whatever looks at the tree.
-TEST(Cutting, TakesOffTheBranchWithAllThatItCarries) {
-  PhysicsRig rig;
-  const int limb = rig.tree.skeleton.depth_end[0];
-  const std::vector<int> gone = carriedBy(rig.tree.skeleton, limb);
-  ASSERT_GT(gone.size(), 3u);
-  const std::uint64_t before = rig.forest.hash();
-  rig.forest.cut({0, limb});
-  EXPECT_TRUE(rig.forest.broken().empty()) << "before the tick";
-  EXPECT_NE(rig.forest.hash(), before);
-  rig.advance();
-  ASSERT_EQ(rig.forest.breaks().size(), 1u);
-  const Break& cut = rig.forest.breaks().front();
-  EXPECT_TRUE(cut.piece.cut);
-  EXPECT_EQ(cut.piece.branch, limb);
-  EXPECT_EQ(cut.piece.stamp, rig.now());
-  const Species& oak = rig.forest.layout().species[0];
-  EXPECT_NEAR(cut.mass, woodOf(rig.tree.skeleton, oak, Material::BEAM).subtree[limb].mass, 1e-9);
-  EXPECT_NEAR(length(cut.piece.pose.position - rig.tree.foot - rig.branches()[limb].rest.position),
-              0.0, 1e-6);
-
-  const Tree left = standing(rig.forest);
-  std::vector<int> broken;
-  for (std::size_t i = 0; i < left.skeleton.branches.size(); ++i)
-    if (left.skeleton.branches[i].broken) broken.push_back(static_cast<int>(i));
-  EXPECT_EQ(broken, gone);
-  const TreeMesh mesh = buildMesh(left.skeleton, oak, meshDetail(GEOMETRY_LEVELS - 1));
-  const TreeMesh whole = buildMesh(rig.tree.skeleton, oak, meshDetail(GEOMETRY_LEVELS - 1));
-  EXPECT_LT(mesh.bark.size(), whole.bark.size());
-  EXPECT_LT(mesh.leaves.size(), whole.leaves.size());
-  for (const BarkVertex& vertex : mesh.bark)
-    EXPECT_FALSE(left.skeleton.branches[vertex.branch].broken);
-  for (const LeafCard& leaf : mesh.leaves) EXPECT_FALSE(left.skeleton.branches[leaf.branch].broken);
-
-  // Neither a ray nor a search near its middle finds it.
-  const Branch& b = rig.branches()[limb];
-  const Vec3 middle = rig.tree.foot + b.rest.position + 0.5 * b.length * axisZ(b.rest.orientation);
-  const auto posed = [&](const Tree& tree) {
-    return PosedTree{std::make_shared<const Tree>(tree), rig.forest.pose(tree, 0, rig.now())};
-  };
-  const auto nearest = [&](const Tree& tree) {
-    return nearestBranch(rig.forest.layout(), rig.forest.terrain(), middle, 0.01,
-                         [&](std::uint32_t) { return posed(tree); });
-  };
-  ASSERT_TRUE(nearest(rig.tree));
-  EXPECT_EQ(nearest(rig.tree)->at.branch, limb);
-  EXPECT_FALSE(nearest(left));
-  const Ray ray{middle + Vec3(0.0, 0.0, 0.3), Vec3(0.0, 0.0, -1.0), 0.0};
-  const auto hit = pickBranch(rig.tree, rig.forest.pose(rig.tree, 0, rig.now()), ray);
-  ASSERT_TRUE(hit);
-  const auto other = pickBranch(left, rig.forest.pose(left, 0, rig.now()), ray);
-  EXPECT_TRUE(!other || !left.skeleton.branches[other->branch].broken);
-}
-
-// A body where the limb was touches nothing, and what is left bends less in the wind.
-TEST(Cutting, WhatIsGoneBearsNoWindAndTouchesNothing) {
-  PhysicsRig rig;
-  const int limb = rig.tree.skeleton.depth_end[0];
-  const Branch& b = rig.branches()[limb];
-  const int top = rig.tree.skeleton.depth_end[0] - 1;
-  rig.forest.setWind(wind::Field({makeBreeze(1, Vec3(6.0, 0.0, 0.0))}));
-  rig.advance();
-  const auto bend = [&] {
-    return length(rig.tip(top) - rig.tree.foot -
-                  tipOf(rig.branches()[top], rig.branches()[top].rest));
-  };
-  const double with = bend();
-  rig.forest.cut({0, limb});
-  rig.advance();
-  rig.tree = standing(rig.forest);
-  EXPECT_GT(bend(), 0.0);
-  EXPECT_LT(bend(), 0.999 * with);
-  Body ball;
-  ball.id = "ball";
-  ball.shape = Shape::SPHERE;
-  ball.size = Vec3(0.05, 0.0, 0.0);
-  ball.pose.position = rig.tree.foot + tipOf(b, b.rest);
-  ball.stamp = rig.now();
-  rig.forest.setBody(ball);
-  rig.run(0.5);
-  for (const Reaction& reaction : rig.forest.reactions())
-    EXPECT_FALSE(rig.tree.skeleton.branches[reaction.at.branch].broken);
-}
-
-TEST(Cutting, GrabsAndPushesOfThePieceEnd) {
-  PhysicsRig rig;
-  const int limb = rig.tree.skeleton.depth_end[0];
-  const int carried = carriedBy(rig.tree.skeleton, limb).back();
-  const std::uint32_t there = rig.forest.addGrab(rig.grabOf(carried));
-  const std::uint32_t elsewhere = rig.forest.addGrab(rig.grabOf(limb + 1));
-  rig.touch(carried, 5.0);
-  rig.run(0.2);
-  rig.forest.cut({0, limb});
-  rig.advance();
-  ASSERT_EQ(rig.forest.ended().size(), 1u);
-  EXPECT_EQ(rig.forest.ended().front().id, there);
-  EXPECT_EQ(rig.forest.breaks().front().grabs, std::vector<std::uint32_t>{there});
-  EXPECT_EQ(rig.forest.grabs().count(elsewhere), 1u);
-  for (const PromotedBranch& branch : rig.forest.promoted(0).branches)
-    EXPECT_FALSE(standing(rig.forest).skeleton.branches[branch.branch].broken);
-  rig.run(0.5);
-  const std::string held = errorOf([&] { rig.forest.addGrab(rig.grabOf(carried)); });
-  EXPECT_EQ(held, "grab: branch = " + std::to_string(carried) + " has come off");
-}
-
-TEST(Cutting, RejectsWhatCannotBeCut) {
-  PhysicsRig rig;
-  const std::string last = std::to_string(rig.branches().size() - 1);
-  EXPECT_EQ(errorOf([&] {
-              rig.forest.cut({1, 1});
-            }),
-            "cut: tree = 1 is unknown, allowed are 0 to 0");
-  EXPECT_EQ(errorOf([&] {
-              rig.forest.cut({0, 0});
-            }),
-            "cut: branch = 0 of tree 0 is outside 1 to " + last + "; 0 is the foot of the trunk");
-  EXPECT_NE(errorOf([&] { rig.forest.cut({0, -1}); }), "");
-  EXPECT_NE(errorOf([&] { rig.forest.cut({0, static_cast<int>(rig.branches().size())}); }), "");
-  const int limb = rig.tree.skeleton.depth_end[0];
-  rig.forest.cut({0, limb});
-  rig.forest.cut({0, carriedBy(rig.tree.skeleton, limb).back()});  // goes with the limb
-  rig.advance();
-  EXPECT_EQ(rig.forest.breaks().size(), 1u);
-  EXPECT_EQ(errorOf([&] {
-              rig.forest.cut({0, limb});
-            }),
-            "cut: branch = " + std::to_string(limb) + " of tree 0 has come off");
-  rig.forest.reset();
-  rig.forest.cut({0, limb});  // whole again
-}
-
 /// A forest and two replicas; the second only hears key frames.
 struct Listeners {
   PhysicsRig rig{{}, 2};
@@ -385,6 +235,48 @@ TEST(Cutting, ModesOfATreeFollowItsLoss) {
   other.setSensor(scene.sensor);
   other.advance(scene.now());
   EXPECT_EQ(other.hash(), scene.forest.hash());
+}
+
+// A tree in modes that loses a limb swings on: its joints bend as those of the whole tree, and what
+// the limb did to them changes in time. Without its state it would begin at the balance of the
+// wind.
+TEST(Cutting, ATreeInModesDoesNotJump) {
+  const wind::Field storm({makeBreeze(1, Vec3(12.0, 3.0, 0.0))}, 3);
+  Clearing with(storm), without(storm);
+  for (Clearing* scene : {&with, &without}) {
+    scene->run(3.0);
+    scene->forest.setWind(wind::Field());  // the tree swings back
+    scene->run(0.1);
+  }
+  ASSERT_NE(with.forest.sensed().modes.find(0), nullptr);
+  const Tree whole = with.tree(0);
+  const int limb = whole.skeleton.depth_end[0];
+  with.forest.cut({0, limb});
+  with.advance();
+  without.advance();
+  const ModalTreeState* state = with.forest.sensed().modes.find(0);
+  ASSERT_NE(state, nullptr);
+  const Tree left =
+      growTree(with.forest.layout(), 0, with.forest.terrain(), brokenOf(with.forest.broken(), 0));
+  ModalForest anew;
+  const wind::Field& wind = with.forest.snapshot().wind;
+  anew.addTree({with.forest.layout(), with.forest.terrain(), wind, &with.forest.broken()}, 0, false,
+               with.now());
+  const auto before = without.angles(whole, 0, without.now());
+  const auto largest = [&](const ModalTreeState& modes) {
+    const auto after = modalAngles(
+        left, wind.at(with.now()).relativeTo(left.foot),
+        weightsAt(with.forest.sensed().levels.of(0), with.now(), with.forest.layout().motion),
+        &modes, with.now());
+    double out = 0.0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (!left.skeleton.branches[i].broken) out = std::max(out, difference(before[i], after[i]));
+    return out;
+  };
+  const double jump = largest(*state), restart = largest(*anew.find(0));
+  std::printf("largest jump of a joint: %.4f rad, from a new start %.4f rad\n", jump, restart);
+  EXPECT_LT(jump, 0.3 * restart);
+  EXPECT_LT(jump, 0.01);
 }
 
 TEST(Cutting, ReplicasRejectBranchesThatATreeCannotLose) {

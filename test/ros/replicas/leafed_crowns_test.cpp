@@ -142,5 +142,35 @@ TEST_F(LeafedOak, IgnoresCrownsOfUnknownTrees) {
   EXPECT_TRUE(crowns_.crowns().empty());
 }
 
+// One tree loses a limb: its crown is grown again without it, the others are kept.
+TEST_F(LeafedOak, OnlyTheCrownOfABrokenTreeIsGrownAgain) {
+  forest::Layout trees = forest_.layout();
+  trees.trees.push_back(trees.trees[0]);
+  trees.trees[1].position.x() += 9.0;
+  trees.trees[1].seed += 1;
+  forest_.setLayout(trees, std::make_shared<terrain::HeightMap>());
+  layout_.crowns[0].first_tree = 0;
+  layout_.crowns[0].trees = 2;
+  crowns_.grow(layout_, forest_);
+  ASSERT_EQ(crowns_.crowns().size(), 2u);
+  const canopy::CrownLeaf* kept = crowns_.crowns()[0].leaves.data();
+  const std::size_t before = crowns_.crowns()[1].leaves.size();
+  EXPECT_FALSE(crowns_.regrowBroken(layout_, forest_));
+  forest::StateUpdate state;
+  state.layout_hash = forest_.layoutHash();
+  state.stamp = canopy::tickStamp(1);
+  forest::BrokenBranch limb;
+  limb.branch = forest_.grow(1).skeleton.depth_end[0] + 2;
+  state.trees = {{1, {}, {}, {}, {limb}}};
+  ASSERT_TRUE(forest_.apply(state)) << forest_.why();
+  EXPECT_TRUE(crowns_.regrowBroken(layout_, forest_));
+  EXPECT_EQ(crowns_.crowns()[0].leaves.data(), kept);
+  EXPECT_LT(crowns_.crowns()[1].leaves.size(), before);
+  EXPECT_FALSE(crowns_.regrowBroken(layout_, forest_));
+  LeafedCrowns anew;
+  anew.grow(layout_, forest_);
+  EXPECT_EQ(anew.crowns()[1].leaves.size(), crowns_.crowns()[1].leaves.size());
+}
+
 }  // namespace
 }  // namespace vegetation_sim

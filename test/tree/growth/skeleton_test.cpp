@@ -45,6 +45,15 @@ TEST_P(SkeletonOfSpecies, RegrowsBitIdentical) {
     EXPECT_EQ(growShipped(GetParam(), seed).hash(), growShipped(GetParam(), seed).hash());
 }
 
+TEST_P(SkeletonOfSpecies, IsCountedWithoutBeingGrown) {
+  const Species species = shippedSpecies(GetParam());
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TreeSeed tree;
+    tree.seed = seed;
+    EXPECT_EQ(countBranches(tree, species), grow(tree, species).branches.size()) << seed;
+  }
+}
+
 // S1-06
 TEST_P(SkeletonOfSpecies, SeedsGiveDifferentTrees) {
   std::set<std::uint64_t> hashes;

@@ -64,6 +64,11 @@ class ModalForest {
   /// Removes the trees whose modes have lost all weight.
   void removeFaded(const LevelMap& levels, Nanoseconds stamp, double transition);
   void retain(const std::set<std::uint32_t>& trees);
+  /// Continues a tree that has lost branches in its new, plain modes, with the bends and rates that
+  /// it has; returns its state, or nullptr for a tree without modes.
+  /// @param like as in addTree().
+  const ModalTreeState* replaceModes(const ModalContext& at, std::uint32_t tree,
+                                     const ModalTreeState* like);
   /// Removes a tree, because it has lost branches and with them its modes.
   void removeTree(std::uint32_t tree);
   void clear();

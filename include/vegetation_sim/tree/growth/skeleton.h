@@ -45,6 +45,8 @@ struct Skeleton {
   std::vector<int> depth_end;  ///< per depth: one past its last branch
   double height{0.0};          ///< of the highest tip above the foot [m]
   double reach{0.0};           ///< of the farthest tip from the trunk's axis, horizontally [m]
+  double trunk_radius{0.0};    ///< at the foot of the trunk [m]
+  bool rooted{true};           ///< its first branch stands in the ground; false: a piece
 
   int depths() const { return static_cast<int>(depth_end.size()); }
   std::uint64_t hash() const;
@@ -53,6 +55,9 @@ struct Skeleton {
 /// Grows a tree. A pure function of seed and species, with the same bits on every machine (S1-04,
 /// S1-07).
 Skeleton grow(const TreeSeed& seed, const Species& species);
+
+/// Returns the number of branches that grow() makes, in a fraction of its time.
+std::size_t countBranches(const TreeSeed& seed, const Species& species);
 
 /// Returns the factor on the height and trunk radius of the species with which grow() makes the
 /// trunk of a tree.
@@ -83,9 +88,11 @@ const BrokenBranches& brokenOf(const BrokenTrees& trees, std::uint32_t tree);
 /// @throws InvalidInput for a branch that the tree does not have, and for its foot.
 void breakOff(const BrokenBranches& broken, Skeleton& skeleton);
 
-/// Leaves of a skeleton only a branch with what it carries; all else counts as broken, without
-/// leaves, but keeps size and place.
-void keepPiece(int branch, Skeleton& skeleton);
+/// Keeps of a skeleton only a branch, which becomes the first, and what it carries that has not
+/// come off. Height, reach and radius of the trunk stay those of the tree.
+/// @return the index that each branch had before, rising.
+/// @throws InvalidInput for a branch that the tree does not have, and for its foot.
+std::vector<int> keepPiece(int branch, Skeleton& skeleton);
 
 /// Returns Rz(theta) Ry(phi), the rotation of a child in the frame of its parent.
 Quat restRotation(double theta, double phi);
