@@ -60,7 +60,7 @@ void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
     canopy_->light(properties_->daylight(), properties_->hazeValues());
   }
   canopy_->update(*source_, stamp, view, properties_->options());
-  const std::vector<Extent> cut = canopy_->takeCutAreas();
+  const std::vector<view::Extent> cut = canopy_->takeCutAreas();
   if (!givesGround(terrain_source_->ground())) return;
   if (ground_)
     repaintGround(cut);
