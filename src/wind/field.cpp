@@ -56,16 +56,29 @@ void shapeGust(const Primitive& p, double elapsed, double weight, Term& term) {
   term.peak = weight * length(p.velocity);
 }
 
-void shapeWake(const Primitive& p, const Vec3& velocity, double weight, Term& term) {
+// Returns the speed of the air at the centre of a body over that of the body and `inflow`. Near
+// zero speed, the direction turns fast and the strength falls faster. A spline through way points
+// within BODY_SPEEDS can be faster than they are.
+double wakeShare(double speed) {
+  return smootherStep(speed / WAKE_ONSET) *
+         (speed > BODY_SPEEDS.high ? BODY_SPEEDS.high / speed : 1.0);
+}
+
+// `acceleration` bounds that of the centre over BOUND_TIME + WAKE_TIME / 2 to both sides.
+void shapeWake(const Primitive& p, const Vec3& velocity, double acceleration, double weight,
+               Term& term) {
   const Vec3 level(velocity.x(), velocity.y(), 0.0);
-  const double speed = length(level);
+  const double speed = length(level), change = acceleration * BOUND_TIME;
   term.direction = levelDirection(level);
-  // Near zero speed, the direction turns fast and the strength falls faster.
-  term.amplitude = level * (p.inflow * weight * smootherStep(speed / WAKE_ONSET));
+  term.amplitude = level * (p.inflow * weight * wakeShare(speed));
   term.plateau = p.plateau_length;
   term.decay = p.decay_length;
-  term.travel = speed * BOUND_TIME;
+  term.sway = acceleration * BOUND_TIME * 0.5 * (BOUND_TIME + WAKE_TIME);
+  term.travel = speed * BOUND_TIME + term.sway;
+  term.turn = change < speed ? change / speed : change > 0.0 ? 1.0 : 0.0;
   term.peak = length(term.amplitude) * WAKE_PEAK;
+  const double fastest = speed + change;
+  term.limit = std::fabs(p.inflow) * weight * fastest * wakeShare(fastest) * WAKE_PEAK;
 }
 
 void shapeEddy(const Primitive& p, double weight, Term& term) {
@@ -89,6 +102,15 @@ struct Field::Compiled {
     if (!(p.orbit_radius > 0.0)) return centre;
     const SinCos turn = sinCosTurns(secondsBetween(p.epoch, stamp) / p.orbit_period);
     return centre + Vec3(turn.cos, turn.sin, 0.0) * p.orbit_radius;
+  }
+  double accelerationBound(const Primitive& p, Nanoseconds stamp) const {
+    const Nanoseconds margin = fromSeconds(BOUND_TIME + 0.5 * WAKE_TIME);
+    double out = path.accelerationBound(stamp - margin, stamp + margin);
+    if (p.orbit_radius > 0.0) {
+      const double omega = 2.0 * PI / p.orbit_period;
+      out += omega * omega * p.orbit_radius;
+    }
+    return out;
   }
 };
 
@@ -154,9 +176,10 @@ bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
   if (out.kind == Kind::WAKE) {
     const Nanoseconds half = fromSeconds(0.5 * WAKE_TIME);
     const Vec3 before = compiled_[index]->centreAt(p, stamp - half);
-    shapeWake(p, (compiled_[index]->centreAt(p, stamp + half) - before) / WAKE_TIME, weight, out);
+    shapeWake(p, (compiled_[index]->centreAt(p, stamp + half) - before) / WAKE_TIME,
+              compiled_[index]->accelerationBound(p, stamp), weight, out);
   }
-  return out.peak > 0.0;
+  return out.peak > 0.0 || out.limit > 0.0;
 }
 
 const Breeze& Field::breezeOf(std::size_t index) const {

@@ -80,20 +80,49 @@ Vec3 wake(const Term& term, const Vec3& offset) {
          (along * (narrowing * narrowing) * wakeAcross(b * narrowing / term.radius));
 }
 
+/// Distances behind a centre and beside its axis.
+struct WakeZone {
+  double first, last, nearest;
+};
+
+// Returns what points within `reach` can have, as the centre moves and the direction turns within
+// the second that a bound covers.
+WakeZone zoneOf(const Term& term, const Vec3& offset, double reach) {
+  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
+  const double beside =
+      std::fabs(offset.y() * term.direction.x() - offset.x() * term.direction.y());
+  const double along = reach + term.travel, across = reach + term.sway;
+  WakeZone zone{-ahead - along, -ahead + along, std::max(0.0, beside - across)};
+  if (term.turn == 0.0) return zone;
+  const double far = std::max(std::fabs(zone.first), std::fabs(zone.last));
+  const double aside = beside + across, cosine = std::sqrt(1.0 - term.turn * term.turn);
+  if (term.turn < 1.0) {
+    zone.first = std::min(zone.first, zone.first * cosine) - aside * term.turn;
+    zone.last = std::max(zone.last, zone.last * cosine) + aside * term.turn;
+    zone.nearest = std::max(0.0, zone.nearest * cosine - far * term.turn);
+  } else {
+    zone.last = std::sqrt(far * far + aside * aside);
+    zone.first = -zone.last;
+    zone.nearest = 0.0;
+  }
+  return zone;
+}
+
 // Each factor is bounded by its largest value on the interval.
 double wakeBound(const Term& term, const Vec3& offset, double reach) {
-  const double ahead = offset.x() * term.direction.x() + offset.y() * term.direction.y();
-  const double beside = offset.y() * term.direction.x() - offset.x() * term.direction.y();
-  const double margin = reach + term.travel, end = term.plateau + term.decay;
-  if (-ahead + margin <= -term.radius || -ahead - margin >= end) return 0.0;
-  const double first = std::max(-ahead - margin, -term.radius);
-  const double last = std::min(-ahead + margin, end);
+  const double end = term.plateau + term.decay;
+  const WakeZone zone = zoneOf(term, offset, reach);
+  if (zone.last <= -term.radius || zone.first >= end) return 0.0;
+  const double first = std::max(zone.first, -term.radius), last = std::min(zone.last, end);
   const double along = smootherStep((last + term.radius) / term.radius) *
                        (1.0 - smootherStep((first - term.plateau) / term.decay));
   const double narrow = wakeNarrowing(term, first), wide = wakeNarrowing(term, last);
-  const double nearest = std::max(0.0, std::fabs(beside) - reach) * wide / term.radius;
-  return std::min(term.peak, length(term.amplitude) * along * (narrow * narrow)) *
-         wakeAcross(nearest);
+  // No turn brings a point nearer to the centre than it is.
+  const double distance = std::max(0.0, horizontal(offset) - reach - term.travel - term.sway);
+  const double square = distance * distance - std::max(first * first, last * last);
+  const double nearest = std::max(zone.nearest, std::sqrt(std::max(0.0, square)));
+  return std::min(term.limit, term.limit / WAKE_PEAK * along * (narrow * narrow)) *
+         wakeAcross(nearest * wide / term.radius);
 }
 
 double gustBound(const Term& term, const Vec3& offset, double reach) {

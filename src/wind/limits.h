@@ -19,8 +19,13 @@ constexpr double SHORTEST_ORBIT = 0.1;  ///< [s] shortest period of an orbit
 /// An edit of a source waits for the change before it at most this long, else it is rejected [ns].
 constexpr Nanoseconds LONGEST_WAIT = 30 * NANOSECONDS_PER_SECOND;
 constexpr Range SPEEDS{-200.0, 200.0};  ///< [m/s] each component
-constexpr Range POSITIONS{-1e6, 1e6};   ///< [m] each component
-constexpr Range TURBULENCE{0.0, 1.0};   ///< rms / mean
+/// [m/s] horizontal, of the body of a wake; a faster step of a followed frame is a jump
+constexpr Range BODY_SPEEDS{0.0, 200.0};
+constexpr Range POSITIONS{-1e6, 1e6};  ///< [m] each component
+constexpr Range TURBULENCE{0.0, 1.0};  ///< rms / mean
+
+/// Returns the horizontal speed between way points [m/s]; infinite or NaN for equal stamps.
+double levelSpeed(const Waypoint& from, const Waypoint& to);
 
 /// Declares every numeric field, used by its kind or not: for hashes.
 void describeAll(FieldVisitor& visitor, Primitive& p);

@@ -93,6 +93,20 @@ void checkTrajectory(const std::string& context, const Primitive& p, Faults& fau
   }
 }
 
+// The parts of the speed of a wake's body: between way points, and around its orbit.
+void checkBody(const std::string& context, const Primitive& p, Faults& faults) {
+  for (std::size_t i = 1; i < p.trajectory.size(); ++i) {
+    const double speed = levelSpeed(p.trajectory[i - 1], p.trajectory[i]);
+    if (speed > BODY_SPEEDS.high)
+      faults.add(rangeFault(context + "speed to trajectory[" + std::to_string(i) + "]", speed,
+                            "m/s", BODY_SPEEDS));
+  }
+  if (!(p.orbit_radius > 0.0 && p.orbit_period >= SHORTEST_ORBIT)) return;
+  const double speed = 2.0 * PI * p.orbit_radius / p.orbit_period;
+  if (speed > BODY_SPEEDS.high)
+    faults.add(rangeFault(context + "speed on the orbit", speed, "m/s", BODY_SPEEDS));
+}
+
 void checkOrbit(const std::string& context, const Primitive& p, Faults& faults) {
   if (p.orbit_radius > 0.0 && p.orbit_period >= 0.0 && p.orbit_period < SHORTEST_ORBIT)
     faults.add(rangeFault(context + "orbit_period", p.orbit_period, "s", {SHORTEST_ORBIT, 1e6}));
@@ -104,6 +118,12 @@ void checkGust(const std::string& context, const Primitive& p, Faults& faults) {
 }
 
 }  // namespace
+
+double levelSpeed(const Waypoint& from, const Waypoint& to) {
+  const Vec3 step = to.position - from.position;
+  return std::sqrt(step.x() * step.x() + step.y() * step.y()) /
+         secondsBetween(from.stamp, to.stamp);
+}
 
 const std::vector<std::string>& kindNames() {
   static const std::vector<std::string> NAMES = {"disk",    "breeze", "gust",
@@ -137,6 +157,7 @@ void check(Primitive p, Faults& faults) {
   checkTrajectory(context, p, faults);
   if (!isKind(p, {Kind::BREEZE})) checkOrbit(context, p, faults);
   if (isKind(p, {Kind::GUST})) checkGust(context, p, faults);
+  if (isKind(p, {Kind::WAKE})) checkBody(context, p, faults);
 }
 
 }  // namespace vegetation_sim::wind

@@ -3,6 +3,7 @@
 #include "wind/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vegetation_sim::wind {
 
@@ -39,6 +40,20 @@ Vec3 Trajectory::slopeAtStart(std::size_t i) const {
 
 Vec3 Trajectory::slopeAtEnd(std::size_t i) const {
   return chord(i) + step(i) * (bend_[i] + 2.0 * bend_[i + 1]) / 6.0;
+}
+
+// The acceleration is linear between way points.
+double Trajectory::accelerationBound(Nanoseconds from, Nanoseconds to) const {
+  double square = 0.0;
+  const auto after =
+      std::upper_bound(points_.begin(), points_.end(), from,
+                       [](Nanoseconds t, const Waypoint& point) { return t < point.stamp; });
+  auto i = static_cast<std::size_t>(after - points_.begin());
+  for (i -= i > 0 ? 1 : 0; i < points_.size(); ++i) {
+    square = std::max(square, bend_[i].x() * bend_[i].x() + bend_[i].y() * bend_[i].y());
+    if (points_[i].stamp >= to) break;
+  }
+  return std::sqrt(square);
 }
 
 Vec3 Trajectory::at(Nanoseconds stamp) const {

@@ -18,6 +18,8 @@ class Trajectory {
 
   /// Returns the position [m] at a stamp.
   Vec3 at(Nanoseconds stamp) const;
+  /// Returns a bound on the horizontal acceleration [m/s^2] between two stamps.
+  double accelerationBound(Nanoseconds from, Nanoseconds to) const;
 
  private:
   double step(std::size_t i) const;

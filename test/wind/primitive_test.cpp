@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "scenes/wind/wind_examples.h"
+#include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/wind/source.h"
 #include "wind/limits.h"
 
@@ -207,7 +208,7 @@ TEST(CheckSource, RefusesAWakeWhoseCentreNeverMoves) {  // N11
             "are missing, so the centre never moves and has no wake");
   EXPECT_EQ(faultsOfWake([](Source& s) { s.primitive.orbit_radius = 3.0; }), "");
   EXPECT_EQ(faultsOfWake([](Source& s) {
-              s.primitive.trajectory.push_back({1, Vec3::UnitX()});
+              s.primitive.trajectory.push_back({at(1.0), Vec3::UnitX()});
             }),
             "");
   EXPECT_EQ(faultsOfWake([](Source& s) {
@@ -226,6 +227,24 @@ TEST(StartedAt, ShiftsEveryStampButForEver) {
   EXPECT_EQ(moved.trajectory[1].stamp, at(108.0));
   source.primitive.t_off = 0;
   EXPECT_EQ(startedAt(source, at(100.0)).primitive.t_off, 0);
+}
+
+TEST(PrimitiveCheck, RejectsAWakeOfABodyThatIsTooFast) {
+  Primitive p = example(Kind::WAKE);
+  p.trajectory = {{at(1.0), Vec3(0.0, 0.0, 0.0)},
+                  {at(2.0), Vec3(200.0, 0.0, 900.0)},
+                  {at(3.0), Vec3(200.0, 201.0, 0.0)}};
+  p.orbit_radius = 100.0;
+  p.orbit_period = 2.0 * PI;
+  EXPECT_EQ(faultsOf(p),
+            "primitive 'source': speed to trajectory[2] = 201 m/s is outside 0 to 200 m/s");
+  p.trajectory.pop_back();
+  EXPECT_EQ(faultsOf(p), "");
+  p.orbit_radius = 202.0;
+  EXPECT_EQ(faultsOf(p),
+            "primitive 'source': speed on the orbit = 202 m/s is outside 0 to 200 m/s");
+  p.kind = Kind::BLAST;
+  EXPECT_EQ(faultsOf(p), "");
 }
 
 }  // namespace

@@ -53,6 +53,24 @@ TEST(Trajectory, KeepsVelocityAndAccelerationAtItsPoints) {  // E1
   }
 }
 
+TEST(Trajectory, BoundsItsLevelAccelerationBetweenTwoStamps) {
+  const Trajectory path(BEND);
+  const double h = 1e-3;
+  for (double from = 0.0; from < 6.0; from += 0.37)
+    for (double to = from; to < 6.5; to += 0.41) {
+      const double bound = path.accelerationBound(at(from), at(to));
+      for (double t = from; t <= to; t += 0.05) {
+        const Vec3 bend =
+            (path.at(at(t + h)) - 2.0 * path.at(at(t)) + path.at(at(t - h))) / (h * h);
+        // h times the third derivative, and the rounding of positions
+        EXPECT_LE(std::hypot(bend.x(), bend.y()), bound + h * 80.0 + 1e-8) << t;
+      }
+    }
+  EXPECT_EQ(path.accelerationBound(at(5.0), at(9.0)), 0.0);
+  EXPECT_EQ(path.accelerationBound(at(0.0), at(1.0)), 0.0);
+  EXPECT_EQ(Trajectory().accelerationBound(at(0.0), at(9.0)), 0.0);
+}
+
 TEST(Trajectory, IsTheSameAtUnixTimes) {  // N2
   const Nanoseconds shift = 1767225600LL * NANOSECONDS_PER_SECOND + 123456789;
   std::vector<Waypoint> moved = BEND;

@@ -132,5 +132,80 @@ TEST(Wake, IsBoundedWhereItComesWithinASecond) {  // S1-22, S1-40
             0.25 * wind.speedBound(Vec3(0.0, 0.0, 0.0), reach));
 }
 
+/// Returns a body that drives through random way points, to and fro, or around an orbit.
+Primitive randomBody(const Random& random) {
+  Primitive p = car();
+  p.radius = random.uniform(0, 0.2, 2.0);
+  p.inflow = random.uniform(1, -1.0, 1.0);
+  p.plateau_length = random.uniform(2, 0.0, 20.0);
+  p.decay_length = random.uniform(3, 1.0, 10.0);
+  p.trajectory.clear();
+  double t = 9.0, spread = random.uniform(4) < 0.3 ? 0.3 : 15.0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    p.trajectory.push_back({at(t), Vec3(random.uniform(10 + 3 * i, -spread, spread),
+                                        random.uniform(11 + 3 * i, -spread, spread), 1.0)});
+    t += random.uniform(12 + 3 * i, 0.3, 3.0);
+  }
+  if (random.uniform(5) < 0.3) {
+    p.trajectory.resize(1);
+    p.orbit_radius = random.uniform(6, 0.1, 20.0);
+    p.orbit_period = random.uniform(7, 2.0, 30.0);
+  }
+  return p;
+}
+
+/// Returns a point of the wake at this instant.
+Vec3 placeIn(const Term& term, const Random& random) {
+  const double s = random.uniform(0, -term.radius, term.plateau + term.decay);
+  const double b = random.uniform(1, -1.0, 1.0) * WAKE_EDGE * stripOf(term).side * 0.3;
+  const Vec3& n = term.direction;
+  return term.centre - n * s + Vec3(-n.y(), n.x(), 0.0) * b;
+}
+
+// The bound at one stamp must hold up to a second before and after it, however the body turns,
+// stops and starts.
+TEST(Wake, IsBoundedWhereItComesWithinASecondThoughItsBodyTurns) {  // S1-22, S1-40
+  int hit = 0;
+  for (std::uint64_t c = 0; c < 20000; ++c) {
+    const Random random = Random(11).child(c);
+    const Field field({randomBody(random)});
+    const double now = random.uniform(40, 9.0, 16.0), then = now + random.uniform(41, -1.0, 1.0);
+    const Instant later = field.at(at(then));
+    if (later.terms.empty()) continue;
+    const Vec3 place = placeIn(later.terms[0], random.child(1));
+    const double reach = random.uniform(42, 0.0, 3.0), turn = random.uniform(43, 0.0, 2.0 * PI);
+    const Vec3 middle = place + Vec3(std::cos(turn), std::sin(turn), 0.0) * reach;
+    const double speed = length(later.velocity(place));
+    // Positions of 20 m lose 1e-14 m, which the steepest flank turns into less speed than this.
+    ASSERT_LE(speed, field.at(at(now)).speedBound(middle, reach) + 1e-9) << "case " << c;
+    if (speed > 0.01) ++hit;
+  }
+  EXPECT_GT(hit, 5000);
+}
+
+TEST(Wake, OfACircleIsNotBoundedFarFromIt) {
+  Primitive p = car();
+  p.plateau_length = p.decay_length = 5.0;
+  p.trajectory = {{0, Vec3(0.0, 0.0, 1.0)}};
+  p.orbit_radius = 20.0;
+  p.orbit_period = 8.0 * PI;  // 5 m/s
+  const Instant wind = Field({p}).at(0);
+  EXPECT_EQ(wind.speedBound(Vec3(20.0, 9.0, 0.0), 1.0), 0.0);
+  EXPECT_EQ(wind.speedBound(Vec3(20.0, -20.0, 0.0), 1.0), 0.0);
+  EXPECT_EQ(wind.speedBound(Vec3(30.0, -5.0, 0.0), 1.0), 0.0);
+  EXPECT_GT(wind.speedBound(Vec3(19.0, 4.0, 0.0), 0.0), 0.5);
+}
+
+TEST(Wake, OfAFasterBodyIsThatOfTheFastestAllowed) {
+  Primitive p = car();
+  // Within 200 m/s from way point to way point, the spline overshoots.
+  p.trajectory = {{at(9.0), Vec3(0.0, 0.0, 1.0)},
+                  {at(10.0), Vec3(0.0, 0.0, 1.0)},
+                  {at(11.0), Vec3(200.0, 0.0, 1.0)}};
+  const Instant wind = Field({p}).at(at(11.0));
+  EXPECT_NEAR(length(wind.terms.at(0).amplitude), INFLOW * 200.0, 1e-9);
+  EXPECT_NEAR(wind.terms.at(0).limit, INFLOW * 200.0 * WAKE_PEAK, 1e-9);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::wind

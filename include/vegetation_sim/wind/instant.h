@@ -21,9 +21,13 @@ struct Term {
   /// gust, wake: horizontal unit vector along which the front or body moves
   Vec3 direction{Vec3::UnitX()};
   double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust, wake (without rise): lengths [m]
-  double travel{0.0};                ///< gust, wake: motion in the second that a bound covers [m]
-  double core{1.0};                  ///< tornado, blast: radius of the peak [m]
-  double speed{0.0};                 ///< tornado, blast: peak, fade included [m/s]
+  // What a bound covers within one second:
+  double travel{0.0};  ///< gust, wake: way of the centre along `direction`, to both sides [m]
+  double sway{0.0};    ///< wake: way of the centre beside it [m]
+  double turn{0.0};    ///< wake: sine of the turn of the direction; 1: any direction
+  double limit{0.0};   ///< wake: largest speed [m/s]
+  double core{1.0};    ///< tornado, blast: radius of the peak [m]
+  double speed{0.0};   ///< tornado, blast: peak, fade included [m/s]
   double inflow{0.0}, updraft{0.0};  ///< tornado: fractions
   double peak{0.0};  ///< largest speed that the term reaches over its cycle, fade included [m/s]
 };

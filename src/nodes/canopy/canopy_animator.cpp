@@ -104,7 +104,7 @@ void CanopyAnimator::apply(CanopyEvent& event) {
   }
 }
 
-// Plants that another event of this tick has cut lower have no piece.
+// A replay gets the plants that were cut. Plants that were lower have no piece.
 void CanopyAnimator::applyCut(CanopyEvent& event) {
   const std::vector<canopy::CutPiece> pieces = canopy_.cut(event.cut_plants, event.cut_height);
   event.cut_plants.clear();

@@ -49,6 +49,7 @@ class CanopyAnimator final
   void followBodies(std::int64_t tick);
   void followCutters(Nanoseconds stamp);
   CanopyEvent cutEvent(const grass::CutArea& area) const;
+  std::uint32_t countHigher(const CanopyEvent& cut) const;
 
   // Time.
   void tick(std::int64_t tick) override;

@@ -88,14 +88,19 @@ void CanopyAnimator::followBodies(std::int64_t tick) {
   }
 }
 
-// A replay gets the plants of an area from the event.
+// It has all plants of the area: those that are lower now may be higher after a reset.
 CanopyEvent CanopyAnimator::cutEvent(const grass::CutArea& area) const {
   CanopyEvent out;
   out.kind = CanopyEvent::CUT;
   out.cut_height = area.height;
-  for (const std::uint32_t plant : plantsIn(canopy_.layout().plants, area))
-    if (canopy_.canCut(plant, area.height)) out.cut_plants.push_back(plant);
+  out.cut_plants = plantsIn(canopy_.layout().plants, area);
   return out;
+}
+
+std::uint32_t CanopyAnimator::countHigher(const CanopyEvent& cut) const {
+  return static_cast<std::uint32_t>(
+      std::count_if(cut.cut_plants.begin(), cut.cut_plants.end(),
+                    [&](std::uint32_t plant) { return canopy_.canCut(plant, cut.cut_height); }));
 }
 
 void CanopyAnimator::followCutters(Nanoseconds stamp) {
@@ -107,7 +112,7 @@ void CanopyAnimator::followCutters(Nanoseconds stamp) {
     acceptInput("cutter", [&] {
       checkSwept(area);
       const CanopyEvent event = cutEvent(area);
-      if (!event.cut_plants.empty()) inputs_.addFirst(event);
+      if (countHigher(event) > 0) inputs_.addFirst(event);
     });
 }
 

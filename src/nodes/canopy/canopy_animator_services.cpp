@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nodes/canopy/canopy_animator.h"
+#include "nodes/canopy/waiting_cuts.h"
 #include "nodes/cutters/cut_request.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -69,10 +70,12 @@ bool CanopyAnimator::onCut(CutPlants::Request& request, CutPlants::Response& res
     refuseInReplay();
     CanopyEvent event = cutEvent(areaOf(request.cut, poseOf(request.header.frame_id)));
     event.header.stamp = effectOf(request.header.stamp, clock_);
-    response.plants = static_cast<std::uint32_t>(event.cut_plants.size());
-    if (event.cut_plants.empty()) return "no plant is cut";
+    const bool is_next = event.header.stamp.isZero();
+    response.plants = countHigher(event);
+    if (event.cut_plants.empty() || (is_next && response.plants == 0)) return "no plant is cut";
+    checkRoomToWait(inputs_, event.cut_plants.size());
     enqueue(std::move(event));
-    return "takes effect at the next tick";
+    return is_next ? "takes effect at the next tick" : "takes effect at its stamp";
   });
 }
 

@@ -108,7 +108,9 @@ void ForestAnimator::tick(std::int64_t tick) {
   forest_->advance(stamp);
   updateDeepestOverlap();
   const auto period = static_cast<std::int64_t>(options_.key_frame_period * options_.state_rate);
-  publishState(force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0);
+  const bool key_frame = force_key_frame_ || tick % std::max<std::int64_t>(1, period) == 0;
+  publishState(key_frame);
+  if (key_frame && forest_->broken() != trunks_broken_) publishTrunks();
   updateGrabs(tick);
   publishForces();
   publishBreaks();
@@ -254,8 +256,13 @@ void ForestAnimator::publishLayout() {
   message.header.stamp = ros::Time::now();
   message.header.frame_id = options_.frame_id;
   layout_publisher_.publish(message);
-  trunks_publisher_.publish(
-      trunkMarkersOf(forest_->layout(), forest_->terrain(), options_.frame_id, MOST_TRUNKS));
+  publishTrunks();
+}
+
+void ForestAnimator::publishTrunks() {
+  trunks_broken_ = forest_->broken();
+  trunks_publisher_.publish(trunkMarkersOf(forest_->layout(), forest_->terrain(), options_.frame_id,
+                                           MOST_TRUNKS, trunks_broken_));
 }
 
 std::shared_ptr<void> createForestAnimator(const ros::NodeHandle& handle,

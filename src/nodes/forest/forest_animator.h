@@ -77,6 +77,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
 
   // Outputs.
   void publishLayout();
+  void publishTrunks();
   void publishState(bool key_frame);
   void sendFrames(const ros::TimerEvent& event);
   void sendBranches(const ros::TimerEvent& event);
@@ -110,6 +111,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   RobotBodies bodies_;
   BranchFrames frames_;
   ForestMarkers markers_;
+  forest::BrokenTrees trunks_broken_;  // in the published trunks
 
   std::optional<std::int64_t> last_framed_;  // tick
   std::size_t frames_sent_{0};               // at the last round

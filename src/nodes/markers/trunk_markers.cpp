@@ -4,13 +4,28 @@
 
 #include <algorithm>
 
-#include "vegetation_sim/tree/growth/skeleton.h"
-
 namespace vegetation_sim {
+namespace {
+
+// Returns the height of what is left of a trunk [m].
+double trunkHeight(const forest::TreeSeed& seed, const forest::Species& species,
+                   const forest::BrokenBranches& broken) {
+  double height = species.height * trunkScale(seed, species);
+  if (broken.empty()) return height;
+  const forest::Skeleton tree = grow(seed, species);
+  for (const forest::BrokenBranch& piece : broken)
+    if (const forest::Branch& branch = tree.branches.at(static_cast<std::size_t>(piece.branch));
+        branch.depth == 0)
+      height = std::min(height, branch.rest.position.z());
+  return height;
+}
+
+}  // namespace
 
 visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
                                                const terrain::HeightMap& terrain,
-                                               const std::string& frame_id, std::size_t most) {
+                                               const std::string& frame_id, std::size_t most,
+                                               const forest::BrokenTrees& broken) {
   visualization_msgs::MarkerArray out;
   visualization_msgs::Marker marker;
   marker.header.frame_id = frame_id;
@@ -32,7 +47,7 @@ visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
     const Vec3 foot = forest::footOf(seed, terrain);
     marker.id = static_cast<std::int32_t>(id);
     marker.scale.x = marker.scale.y = 2.0 * species.trunk_radius * scale;
-    marker.scale.z = species.height * scale;
+    marker.scale.z = trunkHeight(seed, species, forest::brokenOf(broken, id));
     marker.pose.position.x = foot.x();
     marker.pose.position.y = foot.y();
     marker.pose.position.z = foot.z() + 0.5 * marker.scale.z;

@@ -36,31 +36,35 @@ void FrameFollower::clear() {
   missing_.clear();
 }
 
-bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now) {
+bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now, const Report& report) {
+  const std::string& frame = attachment.source().attached_frame;
   try {
-    const auto transform =
-        buffer_.lookupTransform(frame_id_, attachment.source().attached_frame, ros::Time(0));
+    const auto transform = buffer_.lookupTransform(frame_id_, frame, ros::Time(0));
     // A chain of static transforms has no stamp; the current time stands for it.
     const Nanoseconds stamp = fromMsg(transform.header.stamp);
     const auto& at = transform.transform.translation;
     wind::Waypoint point{stamp == 0 ? now : stamp, Vec3(at.x, at.y, at.z)};
+    if (secondsBetween(point.stamp, now) > 0.5 * horizon_) return false;
     Faults faults;
-    FieldChecker(attachment.source().attached_frame + ".", faults)
-        .vector("position", point.position, "m", wind::POSITIONS);
-    if (!faults.empty() || secondsBetween(point.stamp, now) > 0.5 * horizon_) return false;
-    attachment.add(point);
+    FieldChecker checker("", faults);
+    checker.vector("position", point.position, "m", wind::POSITIONS);
+    if (faults.empty())
+      if (std::optional<double> jump = attachment.add(point))
+        checker.number("speed", *jump, "m/s", wind::BODY_SPEEDS);
+    if (!faults.empty()) report("frame '" + frame + "'", faults.text());
     return true;
   } catch (const tf2::TransformException&) {
     return false;
   }
 }
 
-bool FrameFollower::update(wind::PrimitiveSchedule& schedule, Nanoseconds now) {
+bool FrameFollower::update(wind::PrimitiveSchedule& schedule, Nanoseconds now,
+                           const Report& report) {
   bool changed = false;
   missing_.clear();
   const Nanoseconds earliest = now + fromSeconds(lead_);
   for (auto& [name, attachment] : attachments_) {
-    if (!sample(attachment, now))
+    if (!sample(attachment, now, report))
       missing_.add(describeMissingTransform(attachment.source().attached_frame, frame_id_));
     const bool goes_on = attachment.started();
     const auto piece = attachment.piece(earliest);

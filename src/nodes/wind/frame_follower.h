@@ -4,6 +4,7 @@
 
 #include <tf2_ros/buffer.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,9 +29,12 @@ class FrameFollower {
   void remove(const std::string& name) { attachments_.erase(name); }
   void clear();
 
-  /// Samples every frame and adds the next pieces to the schedule. @return whether any was added.
+  /// Takes what refused an input, and why.
+  using Report = std::function<void(const std::string& what, const std::string& why)>;
+  /// Samples every frame and adds the next pieces to the schedule. A frame that is out of range, or
+  /// jumps, is reported. @return whether any piece was added.
   /// @throws InvalidInput if the schedule is full.
-  bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now);
+  bool update(wind::PrimitiveSchedule& schedule, Nanoseconds now, const Report& report);
 
   std::vector<std::string> names() const;
   /// Maps the names of the sources to their attachments.
@@ -43,7 +47,7 @@ class FrameFollower {
   MissingInputs& missing() { return missing_; }
 
  private:
-  bool sample(wind::Attachment& attachment, Nanoseconds now);
+  bool sample(wind::Attachment& attachment, Nanoseconds now, const Report& report);
 
   const tf2_ros::Buffer& buffer_;
   std::string frame_id_;

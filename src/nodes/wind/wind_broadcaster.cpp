@@ -102,7 +102,10 @@ void WindBroadcaster::follow(const ros::TimerEvent&) {
   const Lock lock(mutex_);
   if (!clock_.running()) return;
   acceptInput("followed frame", [&] {
-    if (follower_.update(schedule_, clock_.now())) publishField();
+    const auto report = [this](const std::string& what, const std::string& why) {
+      refusals_.add(what, why);
+    };
+    if (follower_.update(schedule_, clock_.now(), report)) publishField();
   });
 }
 

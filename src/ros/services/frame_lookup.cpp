@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/services/frame_lookup.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -9,49 +10,68 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double PAUSE = 5e-4;  // [s] between two looks
+constexpr double POLL = 5e-4;  // [s] between two looks
 
 }  // namespace
 
-FrameLookup::FrameLookup(const tf2_ros::Buffer& buffer, std::string world, double wait)
-    : buffer_(buffer), world_(std::move(world)), wait_(wait) {}
+FrameLookup::WallClock FrameLookup::systemClock() {
+  return {[] { return ros::WallTime::now().toSec(); },
+          [](double seconds) { ros::WallDuration(seconds).sleep(); }};
+}
+
+FrameLookup::FrameLookup(const tf2_ros::Buffer& buffer, std::string world, double wait,
+                         WallClock clock)
+    : buffer_(buffer), world_(std::move(world)), wait_(wait), clock_(std::move(clock)) {}
 
 void FrameLookup::begin(Nanoseconds tick) {
+  if (tick < tick_) missing_.clear();
   tick_ = tick;
-  deadline_ = ros::WallTime::now() + ros::WallDuration(wait_);
+  deadline_ = clock_.now() + wait_;
 }
 
-// Returns the stamp of the newest transform, 0 if there is none.
-ros::Time FrameLookup::newestOf(const std::string& frame) const {
+// A transform later than the tick may or may not have come, so it is none.
+std::optional<geometry_msgs::TransformStamped> FrameLookup::newestOf(
+    const std::string& frame) const {
   try {
-    return buffer_.lookupTransform(world_, frame, ros::Time(0)).header.stamp;
+    geometry_msgs::TransformStamped out = buffer_.lookupTransform(world_, frame, ros::Time(0));
+    if (fromMsg(out.header.stamp) <= tick_) return out;
   } catch (const tf2::TransformException&) {
-    return {};
   }
+  return std::nullopt;
 }
 
-bool FrameLookup::awaits(const std::string& frame, const ros::Time& stamp) {
-  const auto given_up = given_up_.find(frame);
-  if (given_up != given_up_.end() && given_up->second == newestOf(frame))
-    return buffer_.canTransform(world_, frame, stamp);
-  while (!buffer_.canTransform(world_, frame, stamp)) {
-    if (ros::WallTime::now() >= deadline_) {
-      given_up_[frame] = newestOf(frame);
-      return false;
-    }
-    ros::WallDuration(PAUSE).sleep();
+bool FrameLookup::awaits(const std::string& frame) const {
+  while (!buffer_.canTransform(world_, frame, toStamp(tick_))) {
+    if (clock_.now() >= deadline_) return false;
+    clock_.sleep(POLL);
   }
-  given_up_.erase(frame);
   return true;
 }
 
+void FrameLookup::giveUp(const std::string& frame) {
+  Missing& missing = missing_.try_emplace(frame, Missing{tick_, tick_, tick_, {}}).first->second;
+  const Nanoseconds longest = fromSeconds(std::max(LONGEST_PAUSE, PAUSE_PER_WAIT * wait_));
+  missing.tried = tick_;
+  missing.again = tick_ + std::min(tick_ - missing.since, longest);
+  if (auto newest = newestOf(frame)) missing.last = std::move(newest);
+}
+
 geometry_msgs::TransformStamped FrameLookup::find(const std::string& frame) {
-  const ros::Time stamp = toStamp(tick_);
-  if (wait_ > 0.0) {
-    if (awaits(frame, stamp)) return buffer_.lookupTransform(world_, frame, stamp);
-    ++late_;
+  if (!(wait_ > 0.0)) return buffer_.lookupTransform(world_, frame, ros::Time(0));
+  auto missing = missing_.find(frame);
+  // A frame may be looked up several times in a tick.
+  const bool pauses = missing != missing_.end() &&
+                      (tick_ == missing->second.tried || tick_ < missing->second.again);
+  if (!pauses && awaits(frame)) {
+    missing_.erase(frame);
+    return buffer_.lookupTransform(world_, frame, toStamp(tick_));
   }
-  return buffer_.lookupTransform(world_, frame, ros::Time(0));
+  if (!pauses) giveUp(frame);
+  ++late_;
+  missing = missing_.find(frame);
+  if (!missing->second.last)
+    throw tf2::LookupException("'" + frame + "' has no transform to '" + world_ + "' in time");
+  return *missing->second.last;
 }
 
 }  // namespace vegetation_sim

@@ -60,18 +60,47 @@ void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
     canopy_->light(properties_->daylight(), properties_->hazeValues());
   }
   canopy_->update(*source_, stamp, view, properties_->options());
-  if (givesGround(terrain_source_->ground())) makeGround();
+  const std::vector<view::Extent> cut = canopy_->takeCutAreas();
+  if (!givesGround(terrain_source_->ground())) return;
+  if (ground_)
+    repaintGround(cut);
+  else
+    makeGround();
 }
 
 void CanopyDisplay::makeGround() {
-  if (ground_) return;
-  const view::Daylight daylight = properties_->daylight();
   const view::Plot plot = canopy_->plot();
-  const view::Shade shade =
-      canopy_->shadeOn(plot, view::PLAIN_EDGE, terrain_source_->ground(), daylight.to_sun);
-  ground_ = view::plainGround(*scene_node_, plot, shade, terrain_source_->ground(), daylight,
-                              properties_->groundTint());
+  const view::Daylight daylight = properties_->daylight();
+  ground_ =
+      view::plainGround(*scene_node_, plot,
+                        canopy_->shadeOn(plot, view::PLAIN_EDGE, view::wholePlot(view::PLAIN_EDGE),
+                                         terrain_source_->ground(), daylight.to_sun),
+                        terrain_source_->ground(), daylight, properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
+}
+
+// Plants that have been cut give less shadow.
+void CanopyDisplay::repaintGround(const std::vector<view::Extent>& areas) {
+  const view::Plot plot = canopy_->plot();
+  std::vector<view::Window> windows;
+  int pixels = 0;
+  for (const view::Extent& area : areas) {
+    const view::Window window = view::windowAround(plot, view::PLAIN_EDGE, area);
+    if (window.columns > 0 && window.rows > 0) windows.push_back(window);
+    pixels += window.columns * window.rows;
+  }
+  if (pixels > view::PLAIN_EDGE * view::PLAIN_EDGE) windows = {view::wholePlot(view::PLAIN_EDGE)};
+  for (const view::Window& window : windows) repaintGround(plot, window);
+}
+
+void CanopyDisplay::repaintGround(const view::Plot& plot, const view::Window& window) {
+  const view::Daylight daylight = properties_->daylight();
+  const terrain::HeightMap& ground = terrain_source_->ground();
+  const view::Shade shade =
+      canopy_->shadeOn(plot, view::PLAIN_EDGE, window, ground, daylight.to_sun);
+  ground_->repaint(window.column, view::PLAIN_EDGE - window.row - window.rows,
+                   view::groundPicture(plot, view::PLAIN_EDGE, window, shade, ground, daylight,
+                                       properties_->groundTint()));
 }
 
 view::CanopyReport CanopyDisplay::drawn() const {

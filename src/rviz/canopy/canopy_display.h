@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rviz/canopy/canopy_properties.h"
 #include "rviz/ground/ground_source.h"
@@ -37,6 +38,8 @@ class CanopyDisplay : public SceneryDisplay {
 
  private:
   void makeGround();
+  void repaintGround(const std::vector<view::Extent>& areas);
+  void repaintGround(const view::Plot& plot, const view::Window& window);
 
   std::unique_ptr<view::CanopyProperties> properties_;
   std::unique_ptr<SubscribedCanopy> source_;

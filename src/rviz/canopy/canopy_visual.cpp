@@ -16,6 +16,8 @@ namespace {
 
 constexpr int LEAF_EDGE = 128, BARK_EDGE = 256;  // [pixel]
 constexpr double PATCH = 5.0;                    // [m] edge of a patch
+constexpr double SHADOW_MARGIN = 1.0;            // [m] for large leaves and soft shadows
+constexpr double LOWEST_SUN = 0.15;              // as castShadows(): lower ones are as long
 constexpr double STILL = 1e-4;                   // [m], [rad] a viewer moves without effect
 
 // Painted once per process.
@@ -48,6 +50,11 @@ double wantedOf(const CanopyPatch& patch, const View& view, float tolerance) {
   const double pixels = patch.leafSize() * pixelsPerMetre(view.eye, distance);
   const double share = std::min(1.0, pixels / std::max(0.1, static_cast<double>(tolerance)));
   return share * share * static_cast<double>(patch.leafCount());
+}
+
+bool touch(const Extent& a, const Extent& b) {
+  return a.low.x() <= b.high.x() && b.low.x() <= a.high.x() && a.low.y() <= b.high.y() &&
+         b.low.y() <= a.high.y();
 }
 
 }  // namespace
@@ -99,7 +106,17 @@ void CanopyVisual::updateCuts(const canopy::Replica& canopy) {
     report_.leaves -= patch->leafCount();
     patch = patchOf(canopy, patch->plants());
     report_.leaves += patch->leafCount();
+    cut_areas_.push_back(shadowOf(*patch));
   }
+}
+
+// Returns the area that plants of a patch, cut or not, can shade. Ground that falls away from them
+// makes shadows longer.
+Extent CanopyVisual::shadowOf(const CanopyPatch& patch) const {
+  const Vec3 around = Vec3::Constant(patch.reach() + SHADOW_MARGIN);
+  const Vec3 shift = to_sun_ * (-2.0 * patch.tallest() / std::max(to_sun_.z(), LOWEST_SUN));
+  const Vec3 low = patch.middle() - around, high = patch.middle() + around;
+  return {low.cwiseMin(low + shift), high.cwiseMax(high + shift)};
 }
 
 CanopyVisual::~CanopyVisual() {
@@ -162,26 +179,31 @@ Plot CanopyVisual::plot() const {
   return plotAround(extent_);
 }
 
-Shade CanopyVisual::shadeOn(const Plot& plot, int edge, const terrain::HeightMap& ground,
-                            const Vec3& to_sun) const {
+Shade CanopyVisual::shadeOn(const Plot& plot, int edge, const Window& window,
+                            const terrain::HeightMap& ground, const Vec3& to_sun) const {
+  const double pixel = plot.edge / edge;
+  const Vec3 corner(plot.x + pixel * window.column, plot.y + pixel * window.row, 0.0);
+  const Extent seen{corner, corner + pixel * Vec3(window.columns, window.rows, 0.0)};
+  std::vector<const CanopyPatch*> near;
+  for (const auto& patch : patches_)
+    if (patch->crown() || touch(shadowOf(*patch), seen)) near.push_back(patch.get());
   Shade out;
-  out.sun = castShadows(plot, edge, ground, to_sun, [&](const ShadowDrop& drop) {
-    for (const auto& patch : patches_) patch->setShadows(drop);
+  out.sun = castShadows(plot, edge, window, ground, to_sun, [&](const ShadowDrop& drop) {
+    for (const CanopyPatch* patch : near) patch->setShadows(drop);
   });
   // Light of the sky comes from the zenith, with soft shadows.
   const std::vector<float> zenith =
-      castShadows(plot, edge, ground, Vec3::UnitZ(), [&](const ShadowDrop& drop) {
-        for (const auto& patch : patches_)
+      castShadows(plot, edge, window, ground, Vec3::UnitZ(), [&](const ShadowDrop& drop) {
+        for (const CanopyPatch* patch : near)
           patch->setShadows([&](const Vec3& at, double radius, double depth) {
             drop(at, 3.0 * radius, 0.1 * depth);
           });
       });
-  out.sky = [plot, edge, zenith](const Vec3& at) {
-    const auto pixel = [&](double x) {
-      return std::clamp(static_cast<int>(x / plot.edge * edge), 0, edge - 1);
-    };
-    return static_cast<double>(
-        zenith[static_cast<std::size_t>(pixel(at.y() - plot.y) * edge + pixel(at.x() - plot.x))]);
+  out.sky = [plot, edge, window, zenith](const Vec3& at) {
+    const auto pixelOf = [&](double x) { return static_cast<int>(x / plot.edge * edge); };
+    const int column = std::clamp(pixelOf(at.x() - plot.x) - window.column, 0, window.columns - 1);
+    const int row = std::clamp(pixelOf(at.y() - plot.y) - window.row, 0, window.rows - 1);
+    return static_cast<double>(zenith[static_cast<std::size_t>(row * window.columns + column)]);
   };
   return out;
 }

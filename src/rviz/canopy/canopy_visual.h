@@ -5,6 +5,7 @@
 #include <OgreSceneNode.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "ros/replicas/subscribed_canopy.h"
@@ -45,10 +46,12 @@ class CanopyVisual {
   /// Moves all leaves again at the next update.
   void repaint() { changes_ = -1; }
 
-  /// Square around the plants, and the light that reaches its ground in [edge x edge] pixels.
+  /// Square around the plants, and the light that reaches a window of its ground.
   Plot plot() const;
-  Shade shadeOn(const Plot& plot, int edge, const terrain::HeightMap& ground,
+  Shade shadeOn(const Plot& plot, int edge, const Window& window, const terrain::HeightMap& ground,
                 const Vec3& to_sun) const;
+  /// Returns the areas of ground whose light cuts have changed since the last call.
+  std::vector<Extent> takeCutAreas() { return std::exchange(cut_areas_, {}); }
   const CanopyReport& report() const { return report_; }
 
  private:
@@ -56,6 +59,7 @@ class CanopyVisual {
   std::unique_ptr<CanopyPatch> patchOf(const canopy::Replica& canopy,
                                        const std::vector<std::size_t>& plants) const;
   void updateCuts(const canopy::Replica& canopy);
+  Extent shadowOf(const CanopyPatch& patch) const;
   std::vector<CanopyPatch*> inPicture(const View& view, bool bent) const;
 
   Vec3 to_sun_;
@@ -65,6 +69,7 @@ class CanopyVisual {
   Material leaf_material_, stem_material_;
   std::vector<std::unique_ptr<CanopyPatch>> patches_;
   Extent extent_;
+  std::vector<Extent> cut_areas_;
   int changes_{-1};
   Nanoseconds stamp_{0};
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};

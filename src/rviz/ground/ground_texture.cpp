@@ -30,12 +30,15 @@ Rgba times(const Rgba& a, const Rgba& b) {
 // Accumulates the optical depth towards the sun for each pixel.
 class ShadowPainter {
  public:
-  ShadowPainter(const Plot& plot, int edge, const terrain::HeightMap& terrain, const Vec3& to_sun)
+  ShadowPainter(const Plot& plot, int edge, const Window& window, const terrain::HeightMap& terrain,
+                const Vec3& to_sun)
       : plot_(plot),
         edge_(edge),
+        window_(window),
         terrain_(terrain),
         slope_(to_sun / std::max(to_sun.z(), 0.15)),
-        depth_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.f) {}
+        depth_(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows),
+               0.f) {}
 
   // Adds the shadow of a ball of leaves or wood.
   void drop(const Vec3& from, double radius, double depth) {
@@ -46,14 +49,17 @@ class ShadowPainter {
     const double column = (at.x() - plot_.x) / pixel, row = (at.y() - plot_.y) / pixel;
     const double reach = std::max(radius / pixel, THINNEST);
     depth *= std::min(1.0, radius / pixel / THINNEST);  // thinner than a pixel is fainter
-    const int last_row = std::min(edge_ - 1, static_cast<int>(row + reach));
-    const int last_column = std::min(edge_ - 1, static_cast<int>(column + reach));
-    for (int r = std::max(0, static_cast<int>(row - reach)); r <= last_row; ++r) {
-      for (int c = std::max(0, static_cast<int>(column - reach)); c <= last_column; ++c) {
+    const int last_row = std::min(window_.row + window_.rows - 1, static_cast<int>(row + reach));
+    const int last_column =
+        std::min(window_.column + window_.columns - 1, static_cast<int>(column + reach));
+    for (int r = std::max(window_.row, static_cast<int>(row - reach)); r <= last_row; ++r) {
+      for (int c = std::max(window_.column, static_cast<int>(column - reach)); c <= last_column;
+           ++c) {
         const double x = (c + 0.5 - column) / reach, y = (r + 0.5 - row) / reach;
         const double inside = 1.0 - x * x - y * y;
         if (inside > 0.0)
-          depth_[static_cast<std::size_t>(r * edge_ + c)] += static_cast<float>(depth * inside);
+          depth_[static_cast<std::size_t>((r - window_.row) * window_.columns + c -
+                                          window_.column)] += static_cast<float>(depth * inside);
       }
     }
   }
@@ -66,6 +72,7 @@ class ShadowPainter {
  private:
   Plot plot_;
   int edge_;
+  Window window_;
   const terrain::HeightMap& terrain_;
   Vec3 slope_;
   std::vector<float> depth_;
@@ -93,6 +100,19 @@ Plot plotAround(const Extent& extent) {
   return out;
 }
 
+Window windowAround(const Plot& plot, int edge, const Extent& extent) {
+  constexpr int STEP = 32;  // pixels of which five mipmaps make one
+  const auto below = [&](double x) {
+    return std::clamp(static_cast<int>(std::floor(x / plot.edge * edge / STEP)) * STEP, 0, edge);
+  };
+  const auto above = [&](double x) {
+    return std::clamp(static_cast<int>(std::ceil(x / plot.edge * edge / STEP)) * STEP, 0, edge);
+  };
+  const int column = below(extent.low.x() - plot.x), row = below(extent.low.y() - plot.y);
+  return {column, row, above(extent.high.x() - plot.x) - column,
+          above(extent.high.y() - plot.y) - row};
+}
+
 Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint) {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
   const float broad = noise.fractal(fx / 23.f, fy / 23.f, 3);
@@ -117,17 +137,17 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal) {
   return out;
 }
 
-std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
-                               const Vec3& to_sun,
+std::vector<float> castShadows(const Plot& plot, int edge, const Window& window,
+                               const terrain::HeightMap& terrain, const Vec3& to_sun,
                                const std::function<void(const ShadowDrop&)>& report) {
-  ShadowPainter painter(plot, edge, terrain, to_sun);
+  ShadowPainter painter(plot, edge, window, terrain, to_sun);
   report([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
   return std::move(painter).light();
 }
 
 std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
                              const terrain::HeightMap& terrain, const Vec3& to_sun) {
-  return castShadows(plot, edge, terrain, to_sun, [&](const ShadowDrop& drop) {
+  return castShadows(plot, edge, wholePlot(edge), terrain, to_sun, [&](const ShadowDrop& drop) {
     for (const auto& tree : tree_set.trees()) {
       const double radius = 0.5 * tree->leafSize();
       for (const forest::Branch& branch : tree->tree().skeleton.branches) {
@@ -148,15 +168,16 @@ Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,
                     const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint) {
   const Shade shade{shadowsOn(plot, edge, tree_set, terrain, daylight.to_sun),
                     [&](const Vec3& at) { return tree_set.light().sky(at); }};
-  return groundPicture(plot, edge, shade, terrain, daylight, tint);
+  return groundPicture(plot, edge, wholePlot(edge), shade, terrain, daylight, tint);
 }
 
-Image groundPicture(const Plot& plot, int edge, const Shade& shade,
+Image groundPicture(const Plot& plot, int edge, const Window& window, const Shade& shade,
                     const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint) {
   const Noise noise(GROUND_SEED);
-  Image out(edge, edge, {});
-  for (int r = 0; r < edge; ++r) {
-    for (int c = 0; c < edge; ++c) {
+  Image out(window.columns, window.rows, {});
+  for (int i = 0; i < window.rows; ++i) {
+    for (int j = 0; j < window.columns; ++j) {
+      const int r = window.row + i, c = window.column + j;
       const double u = (c + 0.5) / edge, v = (r + 0.5) / edge;
       const double x = plot.x + plot.edge * u, y = plot.y + plot.edge * v;
       const double from_border = std::min(std::min(u, 1.0 - u), std::min(v, 1.0 - v));
@@ -166,12 +187,12 @@ Image groundPicture(const Plot& plot, int edge, const Shade& shade,
       const double lit =
           shade.sun.empty()
               ? 1.0
-              : static_cast<double>(shade.sun[static_cast<std::size_t>(r * edge + c)]);
+              : static_cast<double>(shade.sun[static_cast<std::size_t>(i * window.columns + j)]);
       const auto sun = static_cast<float>(1.0 - inside * (1.0 - lit));
       const Vec3 normal = terrain.normal(x, y);
       const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
       const Rgba colour = groundColour(noise, x, y, 1.0 - sky, tint);
-      Rgba& pixel = out.at(c, edge - 1 - r);
+      Rgba& pixel = out.at(j, window.rows - 1 - i);
       for (std::size_t i = 0; i < 3; ++i)
         pixel[i] = colour[i] * (daylight.sun[i] * facing * sun +
                                 daylight.zenith_light[i] * static_cast<float>(0.25 + 0.75 * sky));

@@ -23,6 +23,18 @@ struct Plot {
 /// Returns a square around the trees with a margin for their shadows.
 Plot plotAround(const Extent& extent);
 
+/// Part of the pixels of a plot, counted from the south-west.
+struct Window {
+  int column{0}, row{0}, columns{0}, rows{0};
+};
+/// Returns the whole plot with so many pixels along its edge.
+inline Window wholePlot(int edge) {
+  return {0, 0, edge, edge};
+}
+/// Returns the pixels of the plot in an extent, and some around it so that five mipmaps have whole
+/// pixels too.
+Window windowAround(const Plot& plot, int edge, const Extent& extent);
+
 /// Returns the unlit colour of grass and forest floor.
 /// @param shelter 0 in the open, 1 under a closed canopy.
 Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint);
@@ -37,19 +49,20 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set
 
 /// Shares of light that reach the ground of a plot.
 struct Shade {
-  std::vector<float> sun;                  ///< share of sunlight, as shadowsOn(); empty means 1
+  std::vector<float> sun;                  ///< of sunlight, as castShadows(); empty means 1
   std::function<double(const Vec3&)> sky;  ///< share of skylight at a place; empty means 1
 };
 
-/// Returns the shadows of the given balls on the plot, in the form of shadowsOn().
+/// Returns the share of sunlight that balls leave to each pixel of a window, south first.
 using ShadowDrop = std::function<void(const Vec3& at, double radius, double depth)>;
-std::vector<float> castShadows(const Plot& plot, int edge, const terrain::HeightMap& terrain,
-                               const Vec3& to_sun,
+std::vector<float> castShadows(const Plot& plot, int edge, const Window& window,
+                               const terrain::HeightMap& terrain, const Vec3& to_sun,
                                const std::function<void(const ShadowDrop&)>& report);
 
-/// Paints the lit plot from above, north at the top.
-Image groundPicture(const Plot& plot, int edge, const Shade& shade,
+/// Paints a window of the lit plot from above, north at the top. @param shade of the window.
+Image groundPicture(const Plot& plot, int edge, const Window& window, const Shade& shade,
                     const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint);
+/// Paints the whole plot.
 Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,
                     const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint);
 

@@ -160,7 +160,8 @@ void GroundVisual::addLand(const Land& land, const Daylight& daylight) {
 std::unique_ptr<GroundVisual> plainGround(Ogre::SceneNode& parent, const Plot& plot,
                                           const Shade& shade, const terrain::HeightMap& terrain,
                                           const Daylight& daylight, const Rgba& tint) {
-  const Image picture = groundPicture(plot, PLAIN_EDGE, shade, terrain, daylight, tint);
+  const Image picture =
+      groundPicture(plot, PLAIN_EDGE, wholePlot(PLAIN_EDGE), shade, terrain, daylight, tint);
   const double x = plot.x + 0.5 * plot.edge, y = plot.y + 0.5 * plot.edge;
   Land land{plot, picture, terrain, Vec3(x, y, terrain.height(x, y)), 1.0, tint};
   if (!terrain.isFlat()) land.cell = terrain.resolution();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "wind/limits.h"
+
 namespace vegetation_sim::wind {
 namespace {
 
@@ -14,17 +16,21 @@ constexpr std::size_t SAMPLES = 4;  // per piece; the end slope of the spline ne
 Attachment::Attachment(const Source& source, double period, double horizon)
     : source_(source), period_(period), horizon_(horizon) {}
 
-void Attachment::add(const Waypoint& sample) {
+std::optional<double> Attachment::add(const Waypoint& sample) {
+  std::optional<double> jump;
   if (!samples_.empty()) {
     const double gap = secondsBetween(samples_.back().stamp, sample.stamp);
-    if (!(gap > 0.0)) return;
-    if (gap > horizon_) {
+    if (!(gap > 0.0)) return {};
+    const double speed = levelSpeed(samples_.back(), sample);
+    if (gap <= horizon_ && speed > BODY_SPEEDS.high) jump = speed;
+    if (gap > horizon_ || jump) {
       samples_.clear();
       started_ = false;
     }
   }
   samples_.push_back(sample);
   if (samples_.size() > SAMPLES) samples_.pop_front();
+  return jump;
 }
 
 std::optional<Primitive> Attachment::piece(Nanoseconds earliest) {

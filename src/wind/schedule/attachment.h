@@ -24,8 +24,9 @@ class Attachment {
 
   const Source& source() const { return source_; }
   /// Adds a sample; one that is not newer than the last is ignored. After a gap longer than the
-  /// horizon the source starts anew.
-  void add(const Waypoint& sample);
+  /// horizon, or a jump, which is a step faster than BODY_SPEEDS, the source starts anew.
+  /// @return the speed of a jump [m/s], if it was one.
+  std::optional<double> add(const Waypoint& sample);
   /// Returns whether a piece was made since the source began, so that the next one replaces it.
   bool started() const { return started_; }
   /// Returns the next piece, which takes effect at `earliest`. There is none before two samples,

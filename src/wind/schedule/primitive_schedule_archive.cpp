@@ -47,6 +47,9 @@ void Attachment::archive(Archive& a) {
   check(source_, faults);
   for (std::size_t i = 1; i < samples.size(); ++i)
     if (samples[i].stamp <= samples[i - 1].stamp) Archive::rejectOrder("samples", i);
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    if (const double speed = levelSpeed(samples[i - 1], samples[i]); speed > BODY_SPEEDS.high)
+      faults.add(rangeFault("speed to sample " + std::to_string(i), speed, "m/s", BODY_SPEEDS));
   faults.throwIfAny();
   samples_.assign(samples.begin(), samples.end());
 }

@@ -70,6 +70,7 @@ std::string movingPlants(canopy::PlantShape shape) {
   canopy::Canopy plants(twoPlants(shape));
   std::string out = pieceOf(LAYOUT, encode(toMsg(plants.layout())));
   for (int tick = 1; tick <= 2; ++tick) {
+    if (tick == 2) plants.cut({1}, 0.3);
     plants.advance(START + tick * NANOSECONDS_PER_SECOND / 30);
     CanopyState state = toMsg(plants.update(false));
     out += pieceOf(STATE, encode(state));

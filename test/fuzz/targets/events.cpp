@@ -139,6 +139,7 @@ std::vector<std::string> forestSeeds() {
   event.force.along = 0.1;
   event.force.force.x = 5.0;
   event.force.duration = 0.5;
+  event.cut.branch = 1;
   event.sensor.id = "lidar";
   event.sensor.range = 10.0;
   event.sensor.tolerance = 0.01;
@@ -152,7 +153,7 @@ std::vector<std::string> forestSeeds() {
   for (const std::uint8_t kind :
        {ForestEvent::SENSOR, ForestEvent::GRAB, ForestEvent::MOVE, ForestEvent::RENEW,
         ForestEvent::FORCE, ForestEvent::BODY, ForestEvent::REMOVE_BODY, ForestEvent::RELEASE,
-        ForestEvent::RESET}) {
+        ForestEvent::CUT, ForestEvent::RESET}) {
     out.push_back(eventPiece(event, kind));
     all += out.back();
   }
@@ -228,6 +229,15 @@ std::vector<std::string> grassSeeds() {
     event.tread.position.x += 0.5;
     out.back() += eventPiece(event, GrassEvent::TREAD);
   }
+  event.cut.height = 0.05;
+  event.cut.outline.resize(4);
+  event.cut.outline[1].x = event.cut.outline[2].x = 2.0;
+  event.cut.outline[2].y = event.cut.outline[3].y = 2.0;
+  out.push_back(eventPiece(event, GrassEvent::CUT));
+  event.cut.swath = event.cut.outline;
+  event.cut.outline.resize(1);
+  event.cut.radius = 0.5;
+  out.push_back(out.back() + eventPiece(event, GrassEvent::CUT));
   for (const std::uint8_t kind : {GrassEvent::CLEAR, GrassEvent::RESET})
     out.push_back(out.back() + eventPiece(event, kind));
   return out;
@@ -319,6 +329,10 @@ class CanopyRig {
       case CanopyEvent::REMOVE_BODY:
         canopy_.removeBody(event.body.id);
         break;
+      case CanopyEvent::CUT:
+        for (const canopy::CutPiece& piece : canopy_.cut(event.cut_plants, event.cut_height))
+          if (!(piece.length > 0.0)) throw BrokenPromise("a piece of a plant has no length");
+        break;
       default:
         canopy_.reset();
     }
@@ -368,8 +382,16 @@ std::vector<std::string> canopySeeds() {
   CanopyEvent event;
   event.eye.orientation.w = 1.0;
   event.eye.position.x = -5.0;
-  return {settingsPiece<CanopyEvent>(CanopyTuning()), eventPiece(event, CanopyEvent::VIEWER),
-          eventPiece(event, CanopyEvent::RESET), pushing()};
+  event.cut_plants = {0};
+  event.cut_height = 0.4;
+  event.cut_lengths = {1.2};
+  const std::string cut = eventPiece(event, CanopyEvent::CUT);
+  return {settingsPiece<CanopyEvent>(CanopyTuning()),
+          eventPiece(event, CanopyEvent::VIEWER),
+          eventPiece(event, CanopyEvent::RESET),
+          pushing(),
+          cut,
+          cut + pushing() + eventPiece(event, CanopyEvent::RESET) + cut};
 }
 
 }  // namespace

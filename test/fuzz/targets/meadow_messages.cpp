@@ -118,6 +118,8 @@ std::string track(bool picture) {
     input.position = Vec3(1.0 + 0.2 * tick, 1.0, 0.0);
     input.law.radius = input.law.reach = 0.1;
     simulation.apply(input, stamp);
+    if (tick == 1)
+      simulation.cut({{{1.0, 1.5}}, 0.5, 0.05, {{{1.0, 2.0}, {2.0, 2.0}, {2.0, 3.0}}}});
     simulation.advance(stamp);
     out += pieceOf(STATE, encode(toMsg(simulation.update(tick == 0))));
   }

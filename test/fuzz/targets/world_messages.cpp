@@ -1,9 +1,13 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vegetation_sim/CutGrass.h>
+
 #include "crowd/body/body_skeleton.h"
 #include "fuzz/targets/decoding.h"
 #include "fuzz/targets/target_lists.h"
 #include "fuzz/targets/usage.h"
+#include "nodes/canopy/plants_in_area.h"
+#include "nodes/cutters/cut_request.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "ros/conversions/grab_conversions.h"
 #include "ros/replicas/subscribed_crowd.h"
@@ -114,13 +118,42 @@ std::vector<std::string> agentSeeds() {
   return {pieceOf(0, encode(message)), pieceOf(0, encode(message)) + pieceOf(0, encode(message))};
 }
 
-// Inputs of nodes that need no state: viewers, sensors, treads, spawns, robots, grabs, covers.
+// Inputs of nodes that need no state: viewers, sensors, treads, spawns, robots, grabs, covers, and
+// requests to cut grass and plants.
 
-enum InputPiece { VIEWER, SENSOR, TREAD, SPAWN, ROBOT, GRAB, FORCE, BODY, COVER, INPUT_PIECES };
+enum InputPiece {
+  VIEWER,
+  SENSOR,
+  TREAD,
+  SPAWN,
+  ROBOT,
+  GRAB,
+  FORCE,
+  BODY,
+  COVER,
+  CUT,
+  INPUT_PIECES
+};
 
 template <class Message, class Use>
 void convert(std::string_view bytes, const Use& use) {
   if (Message message; decode(bytes, message)) use(message);
+}
+
+/// Finds plants in the area of a request, as the nodes do.
+void cutArea(const GrassCut& message) {
+  static const std::vector<canopy::Plant> PLANTS = [] {
+    std::vector<canopy::Plant> out(100);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i].position =
+          Vec3(0.1 * static_cast<double>(i % 10), 0.1 * static_cast<double>(i / 10), 0);
+    return out;
+  }();
+  const grass::CutArea area =
+      areaOf(message, {Vec3(0.1, 0.2, 0.3), normalized({0.9, 0.0, 0.0, 0.4})});
+  for (const std::uint32_t plant : plantsIn(PLANTS, area))
+    if (plant >= PLANTS.size()) throw BrokenPromise("a plant in an area does not exist");
+  toMsg(area);
 }
 
 void convertCrowdInput(const Piece& piece) {
@@ -169,6 +202,8 @@ void convertInput(const Piece& piece) {
         Faults faults;
         check(fromMsg(m), faults);
       });
+    case CUT:  // CutGrass and CutPlants are the same request
+      return convert<CutGrass::Request>(piece.bytes, [](const auto& m) { cutArea(m.cut); });
     case BODY:
       return convert<ForestBody>(piece.bytes, [](const ForestBody& m) { toMsg(fromMsg(m)); });
     default:
@@ -204,7 +239,17 @@ std::vector<std::string> inputSeeds() {
   body.size.x = 0.1;
   BranchForce force;
   force.duration = 1.0;
-  return {pieceOf(VIEWER, encode(viewer)), pieceOf(SENSOR, encode(toMsg(forest::Sensor()))),
+  CutGrass::Request cut;
+  cut.header.frame_id = "map";
+  cut.cut.height = 0.1;
+  cut.cut.outline.resize(4);
+  cut.cut.outline[1].x = cut.cut.outline[2].x = cut.cut.outline[2].y = cut.cut.outline[3].y = 0.7;
+  CutGrass::Request strip = cut;
+  strip.cut.swath = cut.cut.outline;
+  strip.cut.outline.resize(2);
+  strip.cut.radius = 0.2;
+  return {pieceOf(CUT, encode(cut)),       pieceOf(CUT, encode(strip)),
+          pieceOf(VIEWER, encode(viewer)), pieceOf(SENSOR, encode(toMsg(forest::Sensor()))),
           pieceOf(TREAD, encode(tread)),   pieceOf(SPAWN, encode(toMsg(crowd::Spawn()))),
           pieceOf(ROBOT, encode(robot)),   pieceOf(GRAB, encode(toMsg(forest::Grab()))),
           pieceOf(FORCE, encode(force)),   pieceOf(BODY, encode(body)),
@@ -217,8 +262,8 @@ std::vector<Target> worldMessageTargets() {
   return {{"wind", "WindField, WindPrimitive and edits of a field; samples", runWind, windSeeds},
           {"agents", "AgentStates; bodies and a sweep", runAgents, agentSeeds},
           {"inputs",
-           "Viewer, SensorInterest, TreadEvent, AgentSpawn, CrowdRobot, OccupancyGrid and "
-           "the parts of ForestEvent",
+           "Viewer, SensorInterest, TreadEvent, AgentSpawn, CrowdRobot, OccupancyGrid, requests to "
+           "cut, and the parts of ForestEvent",
            runInputs, inputSeeds}};
 }
 

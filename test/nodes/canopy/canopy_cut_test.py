@@ -47,6 +47,7 @@ class CanopyCut(ReplayedLeaves, unittest.TestCase):
         self.expect_a_tool_to_cut()
         self.expect_a_late_subscriber_to_know()
         self.expect_snapshot_and_reset()
+        self.expect_a_cut_after_a_reset()
         self.expect_equal_replay()
 
     def expect_a_service_to_cut(self):
@@ -131,6 +132,17 @@ class CanopyCut(ReplayedLeaves, unittest.TestCase):
         self.again.settle()
         self.run_ticks(2)
         self.assertEqual(self.cuts(), {0: 0.8, 1: 0.2})
+
+    def expect_a_cut_after_a_reset(self):
+        """A cut that waits takes the plants as they are at its tick."""
+        later = time_of(self.clock.tick + 5)
+        answer = self.cut(header=Header(stamp=later), cut=self.area(0.9, (0.0, 0.0), radius=9.0))
+        self.assertEqual((answer.success, answer.plants), (True, 0))
+        self.assertTrue(rospy.ServiceProxy('/canopy_animator/reset', Trigger)().success)
+        self.run_ticks(2)
+        self.assertEqual(self.cuts(), {})
+        self.run_ticks(4)
+        self.assertEqual(self.cuts(), {0: 0.9, 1: 0.9})
 
     def expect_equal_replay(self):
         self.run_ticks(RATE)

@@ -25,7 +25,7 @@ TEST(TrunkMarkers, StandWhereTheTableAndTheObstaclesOfPeopleHaveThem) {
   tile.mix.assign(layout.species.size(), 1.f);
   layout.tiles = {tile};
   const terrain::HeightMap ground = grass::slopedGround(0.3, -0.1);
-  const visualization_msgs::MarkerArray markers = trunkMarkersOf(layout, ground, "map", 100);
+  const visualization_msgs::MarkerArray markers = trunkMarkersOf(layout, ground, "map", 100, {});
   const auto obstacles = trunksOf(layout, TrunkShape::ROUND, {-100, 100, -100, 100}, 0.0, 100);
   std::ostringstream table;
   writeTable(layout, ground, table);
@@ -55,7 +55,39 @@ TEST(TrunkMarkers, StandWhereTheTableAndTheObstaclesOfPeopleHaveThem) {
     EXPECT_NEAR(0.5 * marker.scale.x, obstacle.reach, 1e-12);
     EXPECT_GT(marker.scale.z, 0.0);
   }
-  EXPECT_EQ(trunkMarkersOf(layout, ground, "map", 3).markers.size(), 4u);
+  EXPECT_EQ(trunkMarkersOf(layout, ground, "map", 3, {}).markers.size(), 4u);
+}
+
+TEST(TrunkMarkers, EndWhereTheirTrunksHaveBroken) {
+  const forest::Layout layout = forest::gridLayout(2, 5.0);
+  const terrain::HeightMap ground = grass::slopedGround(0.3, -0.1);
+  const forest::Skeleton tree = grow(layout.trees[1], layout.species[layout.trees[1].species]);
+  const auto of_depth = [&](int depth, int after) {
+    int id = after + 1;
+    while (tree.branches.at(std::size_t(id)).depth != depth) ++id;
+    return id;
+  };
+  const auto piece = [](int branch) {
+    forest::BrokenBranch out;
+    out.branch = branch;
+    return out;
+  };
+  forest::BrokenTrees broken;
+  const int twig = of_depth(1, 0), low = of_depth(0, 0), high = of_depth(0, low);
+  broken[1] = {piece(twig)};
+  const auto whole = trunkMarkersOf(layout, ground, "map", 100, {}).markers;
+  EXPECT_EQ(trunkMarkersOf(layout, ground, "map", 100, broken).markers[2].scale.z,
+            whole[2].scale.z);
+  broken[1] = {piece(twig), piece(high), piece(low)};
+  const auto left = trunkMarkersOf(layout, ground, "map", 100, broken).markers;
+  const double height = tree.branches[std::size_t(low)].rest.position.z();
+  EXPECT_EQ(left[2].scale.z, height);
+  EXPECT_LT(height, 0.9 * whole[2].scale.z);
+  EXPECT_NEAR(left[2].pose.position.z - 0.5 * height,
+              whole[2].pose.position.z - 0.5 * whole[2].scale.z, 1e-9);
+  EXPECT_EQ(left[2].pose.position.x, whole[2].pose.position.x);
+  EXPECT_EQ(left[1], whole[1]);
+  EXPECT_EQ(left[3], whole[3]);
 }
 
 }  // namespace

@@ -143,6 +143,18 @@ class WindClock(unittest.TestCase):
         self.clock.run(8.0)
         wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'the wind to come back')
 
+    def test_8_starts_anew_where_a_frame_jumps(self):
+        tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        wait_for(lambda: tf.get_num_connections() > 0, 'a listener of /tf')
+        status = Latest('/diagnostics', DiagnosticArray)
+        wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'wind below the drone')
+        self.east = 1000.0
+        warning = "frame 'drone': speed = "
+        wait_for(lambda: self.downwash_after(0.5, tf) > 12.0, 'wind where the drone is now')
+        wait_for(lambda: self.warned(status.message, warning), 'a warning')
+        text = next(s.message for s in status.message.status if warning in s.message)
+        self.assertIn('m/s is outside 0 to 200 m/s', text)
+
     # A few seconds later no stamp fits a message, and timers of roscpp fail.
     def test_9_lives_on_at_the_end_of_time(self):
         self.clock.set(rospy.Time(4294967290, 0))
@@ -160,15 +172,16 @@ class WindClock(unittest.TestCase):
             node.send_signal(signal.SIGINT)
             self.assertEqual(node.wait(), 0)
 
-    @staticmethod
-    def drone(stamp):
-        """Returns the frame on a circle of 20 m at 5 m/s, 50 m east of the other sources."""
+    east = 50.0
+
+    def drone(self, stamp):
+        """Returns the frame on a circle of 20 m at 5 m/s, `east` [m] of the other sources."""
         angle = 0.25 * stamp.to_sec()
         out = TransformStamped()
         out.header.stamp = stamp
         out.header.frame_id = 'map'
         out.child_frame_id = 'drone'
-        out.transform.translation.x = 50.0 + 20.0 * math.cos(angle)
+        out.transform.translation.x = self.east + 20.0 * math.cos(angle)
         out.transform.translation.y = 20.0 * math.sin(angle)
         out.transform.translation.z = 8.0
         out.transform.rotation.w = 1.0

@@ -175,6 +175,28 @@ TEST_F(CanopyDisplayTest, WhatIsCutOffIsGoneUntilAReset) {
       << difference(low, rig.picture());
 }
 
+// The ground must be as one that is painted after the cut, and after the reset.
+TEST_F(CanopyDisplayTest, WhatIsCutOffGivesNoShadow) {
+  rig.lookAt(0.8f, 0.9, 6.0);
+  rig.blow(1);
+  const auto expectGroundOfThePlants = [&](const char* when) {
+    rig.frames(5);
+    const std::vector<std::uint8_t> repainted = rig.picture();
+    display->subProp("Ground")->setValue(false);
+    rig.frames(2);
+    display->subProp("Ground")->setValue(true);
+    rig.frames(5);
+    EXPECT_LT(difference(repainted, rig.picture()), 1e-3) << when;
+  };
+  const std::size_t leaves = display->drawn().leaves;
+  rig.cut({0, 1, 2, 3}, 0.05);
+  ASSERT_TRUE(rig.until([&] { return 4 * display->drawn().leaves < leaves; }));
+  expectGroundOfThePlants("after the cut");
+  rig.reset();
+  ASSERT_TRUE(rig.until([&] { return display->drawn().leaves == leaves; }));
+  expectGroundOfThePlants("after the reset");
+}
+
 // S3-W2: leaves on trees of the forest, in layers where no plant stands, move with their wood at
 // the time of rviz, whatever the state of the canopy is.
 TEST_F(CanopyDisplayTest, CrownsGoWithTheirForest) {

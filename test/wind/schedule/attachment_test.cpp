@@ -92,6 +92,56 @@ TEST(Attachment, FadesInAnewWhenTheFrameComesBack) {
   EXPECT_EQ(attachment.piece(at(20.4))->fade_in, 1.0);
 }
 
+TEST(Attachment, StartsAnewAfterAStepThatIsFasterThanAnyBody) {
+  Attachment attachment(downwash(), PERIOD, HORIZON);
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 3.1);  // last at 3.0 s
+  const Vec3 far = drone(3.0) + Vec3(0.0, 41.0, 0.0);
+  EXPECT_NEAR(attachment.add({at(3.2), far}).value_or(0.0), 205.0, 1e-6);
+  EXPECT_FALSE(attachment.piece(at(3.4)));
+  EXPECT_FALSE(attachment.add({at(3.4), far}));
+  EXPECT_FALSE(attachment.started());
+  const auto piece = attachment.piece(at(3.6));
+  ASSERT_TRUE(piece);
+  for (const Waypoint& point : piece->trajectory) EXPECT_EQ(point.position, far);
+  EXPECT_FALSE(attachment.add({at(3.6), far + Vec3(39.0, 0.0, 0.0)}));
+  EXPECT_FALSE(attachment.add({at(9.0), drone(9.0) - Vec3(9e5, 0.0, 0.0)}));  // a gap
+}
+
+/// A car that drives as the drone flies.
+Source wake() {
+  Source source{example(Kind::WAKE, "wake"), "car"};
+  source.primitive.fade_in = source.primitive.fade_out = 1.0;
+  source.primitive.radius = 0.8;
+  source.primitive.inflow = 0.25;
+  source.primitive.plateau_length = 12.0;
+  source.primitive.decay_length = 6.0;
+  return source;
+}
+
+// The bound knows no later piece, but that the frame turns.
+TEST(Attachment, IsBoundedASecondAheadOnACircle) {  // S1-40
+  Attachment attachment(wake(), PERIOD, HORIZON);
+  PrimitiveSchedule schedule;
+  follow(attachment, schedule, 0.0, 3.9);
+  for (double t = 4.0; t < 12.0; t += PERIOD) {
+    follow(attachment, schedule, t, t + 0.5 * PERIOD);
+    const Instant now = schedule.field().at(at(t));
+    PrimitiveSchedule later = schedule;
+    Attachment on = attachment;
+    follow(on, later, t + PERIOD, t + 1.0);
+    for (double then = t; then <= t + 1.0; then += 0.05)
+      for (double behind = 0.0; behind < 18.0; behind += 0.5)
+        for (const double beside : {-1.5, 0.0, 1.5}) {
+          const SinCos turn = sinCos(0.25 * then);
+          const Vec3 n(-turn.sin, turn.cos, 0.0), side(turn.cos, turn.sin, 0.0);
+          const Vec3 place = drone(then) - n * behind + side * beside;
+          ASSERT_LE(length(later.field().velocity(place, at(then))), now.speedBound(place, 0.0))
+              << "at " << t << " for " << then << ", " << behind << " m behind";
+        }
+  }
+}
+
 TEST(Attachment, IgnoresOldSamples) {
   Attachment attachment(downwash(), PERIOD, HORIZON);
   attachment.add({at(1.0), drone(1.0)});

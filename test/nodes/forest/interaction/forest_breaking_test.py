@@ -15,6 +15,7 @@ from geometry_msgs.msg import Point, PointStamped
 from vegetation_sim.msg import (BranchBreak, ContactForces, ErrorCode, ForestEvent, GrabStatus,
                                 GrabStatuses, WindField)
 from vegetation_sim.srv import CutBranch
+from visualization_msgs.msg import MarkerArray
 
 from forest_rig import RATE, TickClock, scene, time_of
 from grab_rig import LIMB, OTHER_LIMB, TREE, Hands, plus, size, stamped, vector
@@ -41,6 +42,7 @@ class ForestBreaking(unittest.TestCase):
         cls.grabs = Log('/forest/grabs', GrabStatuses)
         cls.forces = Log('/forest/forces', ContactForces)
         cls.wind = Log('/wind', WindField)
+        cls.trunks = Log('/forest/trunks', MarkerArray)
         cls.clock.begin(cls.hands)
         for log in (cls.grabs, cls.forces, cls.hands.breaks, cls.hands.events, cls.wind):
             wait_for(log.connected, log.topic)
@@ -97,12 +99,25 @@ class ForestBreaking(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
         self.assertEqual((answer.tree, answer.branch), (TREE, limb))
         self.hands.run(1)
-        cut = self.hands.breaks.wait(lambda all: len(all) == 2 and all[-1], 'the cut')
+        cut = self.hands.breaks.wait(lambda all: len(all) == 3 and all[-1], 'the cut')
         self.assertEqual((cut.tree, cut.piece.branch, cut.piece.cut, list(cut.grabs)),
                          (TREE, limb, True, [grab.id]))
         self.assertEqual(cut.piece.stamp, time_of(self.clock.tick))
         self.grabs.wait(lambda _: self.status(grab.id) is not None, 'the end of the grab')
         self.assertEqual(self.status(grab.id), GrabStatus.BRANCH_BROKEN)
+
+    def fell_a_tree(self, tree):
+        """Cuts a trunk above its foot, and checks that its marker becomes a stump."""
+        def height():
+            return self.trunks.messages[-1].markers[tree + 1].scale.z
+        wait_for(lambda: self.trunks.messages, 'trunks')
+        whole = height()
+        answer = self.hands.cut_branch(tree=tree, branch=1)
+        self.assertTrue(answer.success, answer.message)
+        self.clock.run_until(lambda: height() < 0.9 * whole, 'a stump', self.hands)
+        self.assertAlmostEqual(height(), answer.point.z, delta=0.1 * whole)
+        self.assertEqual(self.trunks.messages[-1].markers[tree + 2],
+                         self.trunks.messages[0].markers[tree + 2])
 
     def expect_refusals(self, gone):
         tree = self.hands.tree(TREE)
@@ -121,9 +136,10 @@ class ForestBreaking(unittest.TestCase):
 
     def test_a_replay_repeats_a_break_and_a_cut(self):
         broken = self.break_a_limb()
+        self.fell_a_tree(1)
         self.cut_a_limb(OTHER_LIMB)
         self.expect_refusals(broken.piece.branch)
-        self.assertEqual(self.broken(), {TREE: [broken.piece.branch, OTHER_LIMB]})
+        self.assertEqual(self.broken()[TREE], [broken.piece.branch, OTHER_LIMB])
         self.assertEqual([b.branch for b in self.hands.tree(TREE).broken],
                          [broken.piece.branch, OTHER_LIMB])
         self.hands.run(RATE)
