@@ -193,9 +193,9 @@ Image groundPicture(const Plot& plot, int edge, const Window& window, const Shad
       const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
       const Rgba colour = groundColour(noise, x, y, 1.0 - sky, tint);
       Rgba& pixel = out.at(j, window.rows - 1 - i);
-      for (std::size_t i = 0; i < 3; ++i)
-        pixel[i] = colour[i] * (daylight.sun[i] * facing * sun +
-                                daylight.zenith_light[i] * static_cast<float>(0.25 + 0.75 * sky));
+      for (std::size_t k = 0; k < 3; ++k)
+        pixel[k] = colour[k] * (daylight.sun[k] * facing * sun +
+                                daylight.zenith_light[k] * static_cast<float>(0.25 + 0.75 * sky));
       pixel[3] = 1.f;
     }
   }
