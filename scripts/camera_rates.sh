@@ -27,7 +27,7 @@ for scenario in "$@"; do
     echo "<arg name='scenario' value='$scenario'/><arg name='rviz' value='false'/></include>"
     echo "<node pkg='vegetation_sim' type='vegetation_camera' name='measured_camera'><rosparam>"
     # The rate is above what the camera reaches.
-    echo "{frame_id: $world, camera_frame: measured_camera, width: 640, height: 480, rate: 60}"
+    echo "{frame_id: $world, camera_frame: measured_camera, width: 640, height: 480, rate: 60, threads: 2}"
     echo "</rosparam></node>"
     echo '</launch>'
   } >"$WORK/scenario.launch"

@@ -3,10 +3,10 @@
 #include "sensors/grass_volume.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
-#include "sensors/blade_width.h"
 #include "sensors/geometry/box.h"
 #include "sensors/media/beer_lambert.h"
 #include "sensors/media/cell_walk.h"
@@ -18,6 +18,10 @@ namespace {
 
 int indexOf(double x, double origin, double resolution, int most) {
   return static_cast<int>(std::clamp(std::floor((x - origin) / resolution), 0.0, double(most)));
+}
+
+Vec3 middleOf(const Cell& cell) {
+  return {GRASS_CELL * (cell.x + 0.5), GRASS_CELL * (cell.y + 0.5), 0.0};
 }
 
 grass::TileWindow windowAround(const grass::FeatureMap& map, const Vec3& centre, double radius) {
@@ -51,6 +55,8 @@ void GrassVolume::update(const grass::Layout& layout, const grass::TreadMap& tre
   if (!still_) air_->update(instant, {}, window_);
   bounds_.setWind(still_ ? nullptr : air_.get(), window_);
   bounds_.setTread(tread);
+  static std::atomic<std::uint64_t> versions{0};
+  version_ = ++versions;
 }
 
 void GrassVolume::takeMap() {
@@ -116,25 +122,35 @@ Vec3 GrassVolume::airAt(double x, double y) const {
          q * ((1.0 - p) * air_->at(column, row + 1) + p * air_->at(column + 1, row + 1));
 }
 
-// Blades are taken as straight from root to tip and equally wide from all sides, as they are drawn.
-// Lean has a random direction: its square is the sum of two means of 1/6.
 double GrassVolume::extinction(const Vec3& place, const Vec3& direction) const {
-  return extinctionAt(place, above(place), direction);
+  const Cell cell = cellAt(place, GRASS_CELL);
+  return extinctionIn(cell, above(place), direction);
 }
 
-double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& direction) const {
-  // Most of a flat ray is above the grass.
-  if (!(height >= 0.0 && height <= topAt(place.x(), place.y()))) return 0.0;
+double GrassVolume::extinctionIn(const Cell& cell, double height, const Vec3& direction) const {
+  thread_local StandCache cache;
+  const GrassStand& stand =
+      cache.at(version_, cell.x, cell.y, [&] { return standAt(middleOf(cell)); });
+  return stand.extinction(height, direction.z() * direction.z());
+}
+
+double GrassVolume::extinctionAnew(const Vec3& middle, double height, const Vec3& direction) const {
+  if (height > topAt(middle.x(), middle.y())) return 0.0;
+  return standAt(middle).extinction(height, direction.z() * direction.z());
+}
+
+// Lean has a random direction: its square is the sum of two means of 1/6.
+GrassStand GrassVolume::standAt(const Vec3& place) const {
   const grass::Features here = layout_.map->at(place.x(), place.y());
-  if (!(here.density > 0.0)) return 0.0;
-  const double cut = cutAt(place.x(), place.y()).height;
-  if (!(height < cut)) return 0.0;
+  if (!(here.density > 0.0)) return {};
+  GrassStand out(cutAt(place.x(), place.y()).height);
   const double tilt = tiltAt(place.x(), place.y());
   const Vec3 air = airAt(place.x(), place.y());
-  double sum = 0.0, shares = 0.0;
+  double shares = 0.0;
+  for (std::size_t k = 0; k < kinds_.size(); ++k) shares += here.mix[k];
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    if (!(here.mix[k] > 0.0)) continue;
     const Kind& kind = kinds_[k];
-    shares += here.mix[k];
     const grass::Point blown = grass::bendIn(air, kind.compliance);
     const double lean = kind.lean * here.shape;
     const double bend =
@@ -144,14 +160,12 @@ double GrassVolume::extinctionAt(const Vec3& place, double height, const Vec3& d
     const double both = std::sqrt(tilt * tilt + left * left);
     const double hinge = tilt + left > 0.0 ? both * tilt / (tilt + left) : 0.0;
     const double rise = sinCos(hinge + 0.5 * (both - hinge)).cos;
-    const double most = here.height * kind.height, least = most * (1.0 - kind.spread);
-    const double width = kind.width * widthAfterCut(height / rise, least, most, cut);
-    // Mean squared cosine between the ray and blades of random direction.
-    const double steep = direction.z() * direction.z();
-    const double along = rise * rise * steep + 0.5 * (1.0 - rise * rise) * (1.0 - steep);
-    sum += here.mix[k] * width / rise * std::sqrt(1.0 - along);
+    const double most = here.height * kind.height;
+    out.add({static_cast<float>(here.density * here.mix[k] / shares * kind.width / rise),
+             static_cast<float>(rise), static_cast<float>(most * (1.0 - kind.spread)),
+             static_cast<float>(most)});
   }
-  return shares > 0.0 ? here.density * sum / shares : 0.0;
+  return out;
 }
 
 // Enters the layer of the grass, marches through it, and may enter it again. @param march returns
@@ -198,14 +212,15 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
   for (; from < nearest.distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), nearest.distance);
     from = to;
-    const Vec3 middle = ray.at(0.5 * (start + to));
-    const double height = above(middle);
+    const double height = above(ray.at(0.5 * (start + to)));
     if (height > tallest_) return start;
+    const Vec3 middle = middleOf(walk.cell());
     const double bound = LIKELY ? bounds_.at(middle.x(), middle.y(), height) : Box::ENDLESS;
     if (bound <= 0.0) continue;
     const double share = shareOf(walk.cell(), key);
     if (LIKELY && !mayBeBelow(bound * (to - start), share)) continue;
-    const double here = extinctionAt(middle, height, ray.direction);
+    const double here = LIKELY ? extinctionIn(walk.cell(), height, ray.direction)
+                               : extinctionAnew(middle, height, ray.direction);
     const double way = here > 0.0 ? depthAt(share) / here : Box::ENDLESS;
     if (!(start + way < to)) continue;
     nearest = {start + way, Label::GRASS, 0, -1, BLADE_COSINE};
@@ -220,10 +235,9 @@ double GrassVolume::marchLight(const Ray& ray, double from, LightPath& path) con
   for (; from < path.end().distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), path.end().distance);
     from = to;
-    const Vec3 middle = ray.at(0.5 * (start + to));
-    const double height = above(middle);
+    const double height = above(ray.at(0.5 * (start + to)));
     if (height > tallest_) return start;
-    path.add(extinctionAt(middle, height, ray.direction) * (to - start));
+    path.add(extinctionIn(walk.cell(), height, ray.direction) * (to - start));
   }
   return from;
 }

@@ -8,6 +8,8 @@
 #include "grass/lod/node_wind.h"
 #include "sensors/geometry/ray.h"
 #include "sensors/grass_bounds.h"
+#include "sensors/grass_stand.h"
+#include "sensors/media/beer_lambert.h"
 #include "sensors/media/light_path.h"
 #include "vegetation_sim/grass/grass_layout.h"
 #include "vegetation_sim/wind/field.h"
@@ -67,7 +69,9 @@ class GrassVolume {
   void takeMap();
   double above(const Vec3& place) const;
   double topAt(double x, double y) const;
-  double extinctionAt(const Vec3& place, double height, const Vec3& direction) const;
+  GrassStand standAt(const Vec3& place) const;
+  double extinctionAnew(const Vec3& middle, double height, const Vec3& direction) const;
+  double extinctionIn(const Cell& cell, double height, const Vec3& direction) const;
   Vec3 airAt(double x, double y) const;
   template <class March>
   void visitLayer(const Ray& ray, const Hit& end, March&& march) const;
@@ -89,12 +93,11 @@ class GrassVolume {
   GrassBounds bounds_;
   std::vector<float> tops_;  ///< [rows x columns] of tiles: upper bound of the height of blades [m]
   Nanoseconds stamp_{0};
+  std::uint64_t version_{0};  ///< of the grass, different in all volumes
 };
 
 /// Mean cosine between a ray and the normals of blades of random orientation.
 constexpr double BLADE_COSINE = 0.5;
-/// Edge of the cells of the grass [m].
-constexpr double GRASS_CELL = 0.05;
 /// Width of a column [m], and distance up to which there are columns [m].
 constexpr double BLADE_CELL = 0.006, BLADES_REACH = 12.0;
 

@@ -17,26 +17,31 @@ constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 }  // namespace
 
-// Returns an upper bound of the extinction along a part of a ray that is shorter than the edge of
-// the bounds, or -1 if that part is above the layer.
+// Returns an upper bound of the extinction along a part of a ray, or -1 if that part is above the
+// layer. The grass is that of the middles of cells, up to half a cell away.
 double GrassVolume::boundWithin(const Ray& ray, double from, double to) const {
   const Vec3 a = ray.at(from), b = ray.at(to);
   const double lowest = std::min(above(a), above(b)) - 0.5 * terrain_->steepest() * (to - from);
   if (lowest > tallest_) return -1.0;
+  const Vec3 margin(0.5 * GRASS_CELL, 0.5 * GRASS_CELL, 0.0);
+  const Vec3 low = a.cwiseMin(b) - margin, size = a.cwiseMax(b) + margin - low;
+  const int columns = 1 + static_cast<int>(size.x() / bounds_.edge());
+  const int rows = 1 + static_cast<int>(size.y() / bounds_.edge());
   double out = 0.0;
-  for (const double x : {a.x(), b.x()})
-    for (const double y : {a.y(), b.y()}) out = std::max(out, bounds_.at(x, y, lowest));
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column <= columns; ++column)
+      out = std::max(out, bounds_.at(low.x() + size.x() * column / columns,
+                                     low.y() + size.y() * row / rows, lowest));
   return out;
 }
 
 // Steps without grass are left out. Returns the distance at which the ray leaves the layer, hits a
 // blade or has come as far as there are columns.
 double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const {
-  const double size = std::min(BLADE_STRETCH, 0.9 * bounds_.edge());
   ColumnWalk columns(ray, BLADE_CELL, BLADE_RISE,
                      static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
   while (from < std::min(nearest.distance, BLADES_REACH)) {
-    const double to = std::min(from + size, nearest.distance);
+    const double to = std::min(from + BLADE_STRETCH, nearest.distance);
     const double bound = boundWithin(ray, from, to + 2.0 * BLADE_CELL);
     if (bound < 0.0) return from;
     if (bound > 0.0) {
@@ -60,12 +65,8 @@ double GrassVolume::meetColumns(ColumnWalk& columns, double to, double bound, Hi
     const double share = columns.share();
     if (!steep && !mayBeBelow(columns.spent() + bound * step.length(), share)) continue;
     const Vec3 middle = ray.at(0.5 * (step.from + step.to));
-    const double height = above(middle);
-    if (!steep &&
-        !mayBeBelow(columns.spent() + bounds_.at(middle.x(), middle.y(), height) * step.length(),
-                    share))
-      continue;
-    const double here = extinctionAt(middle, height, ray.direction);
+    const Cell cell = cellAt(middle, GRASS_CELL);
+    const double here = extinctionIn(cell, above(middle), ray.direction);
     const double left = depthAt(share) - columns.spent();
     columns.spend(here * step.length());
     if (!(left < here * step.length())) continue;
