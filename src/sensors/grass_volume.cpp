@@ -195,8 +195,12 @@ void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
 
 void GrassVolume::meetBlades(const Ray& ray, Hit& nearest) const {
   visitLayer(ray, nearest, [&](double from) {
-    if (from < BLADES_REACH) from = marchBlades(ray, from, nearest);
-    return from < BLADES_REACH ? from : march<true>(ray, from, nearest);
+    for (const BladeColumns& form : BLADE_COLUMNS) {
+      if (from >= form.reach) continue;
+      from = marchBlades(ray, from, form, nearest);
+      if (from < form.reach) return from;
+    }
+    return march<true>(ray, from, nearest);
   });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,7 @@
 namespace vegetation_sim::scan {
 
 class ColumnWalk;
+struct BladeColumns;
 
 /// What of the medium has one random number: cubes, or upright columns as wide as a blade, of which
 /// a picture shows single blades. Rays meet it equally often.
@@ -38,7 +40,7 @@ class GrassVolume {
   enum class Cells { LIKELY, ALL };
   void meet(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
-  /// Does the same as meet() with columns within BLADES_REACH, and cubes beyond.
+  /// Does the same as meet() with BLADE_COLUMNS, and cubes beyond.
   void meetBlades(const Ray& ray, Hit& nearest) const;
 
   /// Adds the optical depth of the grass to a path of light.
@@ -78,7 +80,7 @@ class GrassVolume {
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
   double boundWithin(const Ray& ray, double from, double to) const;
-  double marchBlades(const Ray& ray, double from, Hit& nearest) const;
+  double marchBlades(const Ray& ray, double from, const BladeColumns& form, Hit& nearest) const;
   double meetColumns(ColumnWalk& columns, double to, double bound, Hit& nearest) const;
   double marchLight(const Ray& ray, double from, LightPath& path) const;
 
@@ -98,7 +100,10 @@ class GrassVolume {
 
 /// Mean cosine between a ray and the normals of blades of random orientation.
 constexpr double BLADE_COSINE = 0.5;
-/// Width of a column [m], and distance up to which there are columns [m].
-constexpr double BLADE_CELL = 0.006, BLADES_REACH = 12.0;
+/// Width of columns [m], and distance up to which they have it [m]; beyond, there are cubes.
+struct BladeColumns {
+  double width, reach;
+};
+constexpr std::array<BladeColumns, 2> BLADE_COLUMNS{{{0.006, 6.0}, {0.012, 12.0}}};
 
 }  // namespace vegetation_sim::scan

@@ -37,12 +37,13 @@ double GrassVolume::boundWithin(const Ray& ray, double from, double to) const {
 
 // Steps without grass are left out. Returns the distance at which the ray leaves the layer, hits a
 // blade or has come as far as there are columns.
-double GrassVolume::marchBlades(const Ray& ray, double from, Hit& nearest) const {
-  ColumnWalk columns(ray, BLADE_CELL, BLADE_RISE,
+double GrassVolume::marchBlades(const Ray& ray, double from, const BladeColumns& form,
+                                Hit& nearest) const {
+  ColumnWalk columns(ray, form.width, BLADE_RISE,
                      static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
-  while (from < std::min(nearest.distance, BLADES_REACH)) {
+  while (from < std::min(nearest.distance, form.reach)) {
     const double to = std::min(from + BLADE_STRETCH, nearest.distance);
-    const double bound = boundWithin(ray, from, to + 2.0 * BLADE_CELL);
+    const double bound = boundWithin(ray, from, to + 2.0 * form.width);
     if (bound < 0.0) return from;
     if (bound > 0.0) {
       columns.enter(from);

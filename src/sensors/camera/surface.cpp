@@ -150,7 +150,7 @@ Surface Surfaces::grassAt(const Vec3& place) const {
   const bool is_cut = cut.height < here.height;
   const double top = std::max(0.02, std::min(cut.height, here.height) * (1.0 - 0.8 * flat));
   const double way = saturate(grass.heightOf(place) / top);
-  const Cell column = cellAt({place.x(), place.y(), 0.0}, BLADE_CELL);
+  const Cell column = cellAt({place.x(), place.y(), 0.0}, BLADE_COLUMNS.front().width);
   Vec3 colour = grass::meanColour(map, here);
   if (is_cut) colour = blend(colour, map.species()[0].species.dry_colour, STUBBLE_DRYNESS);
   colour = blend(colour, HAY, hayShare(cut.swath));
