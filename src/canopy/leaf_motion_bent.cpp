@@ -57,7 +57,7 @@ void Foliage::setBent(const std::vector<BentCell>& cells) {
   }
 }
 
-// What is below the feet of the fibres, such as a trunk, does not move.
+// Parts below the feet of the fibres, such as a trunk, do not move.
 Foliage::Turn Foliage::turnAt(const BentPlant& plant, const Vec3& anchor) {
   Turn out{plant.fibres.foot, {}};
   out.foot.x() = anchor.x();

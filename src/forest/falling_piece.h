@@ -9,11 +9,11 @@
 
 namespace vegetation_sim::forest {
 
-/// What has come off a tree, as displays and sensors show it: a rigid piece that falls freely, with
-/// the velocity and the angular velocity that its joint had, until a tip meets the ground; then it
-/// turns about its centre of mass until that lies level with its joint, and rests. A function of
-/// its record and the stamp alone, so that all replicas and late joiners have the same bits. It
-/// touches nothing but the ground, and rests where it is after 10 s of fall.
+/// A piece that has come off a tree, as displays and sensors show it: rigid and falling freely,
+/// with the velocity and the angular velocity that its joint had, until a tip meets the ground;
+/// then it turns about its centre of mass until that lies level with its joint, and rests. A
+/// function of its record and the stamp alone, so that all replicas and late joiners have the same
+/// bits. It touches nothing but the ground, and rests where it is after 10 s of fall.
 class FallingPiece {
  public:
   /// @param number of the piece in `broken`, which has all that has come off the tree.

@@ -87,7 +87,7 @@ class Forest {
   const Bodies& bodies() const { return snapshot_.physics.bodies(); }
   /// Grabs that ended at the last tick by their lease or with their branch.
   const std::vector<EndedGrab>& ended() const { return snapshot_.physics.ended(); }
-  /// What has come off the trees, and what did so at the last tick.
+  /// Returns the branches that have come off the trees, and those that did so at the last tick.
   const BrokenTrees& broken() const { return snapshot_.physics.broken(); }
   const std::vector<Break>& breaks() const { return snapshot_.physics.breaks(); }
   /// Reactions on bodies that hold or touch branches, at the end of the last tick.

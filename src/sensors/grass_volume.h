@@ -20,8 +20,8 @@ namespace vegetation_sim::scan {
 class ColumnWalk;
 struct BladeColumns;
 
-/// What of the medium has one random number: cubes, or upright columns as wide as a blade, of which
-/// a picture shows single blades. Rays meet it equally often.
+/// Parts of the medium with one random number each: cubes, or upright columns as wide as a blade,
+/// of which a picture shows single blades. Rays meet it equally often.
 enum class GrassGrain { CUBES, BLADES };
 
 /// Grass as a medium for rays: as dense as its blades, and as high as wind and treading leave them

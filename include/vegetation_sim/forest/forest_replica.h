@@ -52,7 +52,7 @@ class ForestReplica {
   Tree grow(std::uint32_t tree) const {
     return growTree(*layout_, tree, *terrain_, brokenOf(broken_, tree));
   }
-  /// What has come off the trees.
+  /// Returns the branches that have come off the trees.
   const BrokenTrees& broken() const { return broken_; }
   Weights weights(std::uint32_t tree, Nanoseconds stamp) const {
     return weightsAt(levels_.of(tree), stamp, layout_->motion);

@@ -21,7 +21,7 @@ struct Term {
   /// gust, wake: horizontal unit vector along which the front or body moves
   Vec3 direction{Vec3::UnitX()};
   double rise{1.0}, plateau{0.0}, decay{1.0};  ///< gust, wake (without rise): lengths [m]
-  // What a bound covers within one second:
+  // A bound covers these changes within one second:
   double travel{0.0};  ///< gust, wake: way of the centre along `direction`, to both sides [m]
   double sway{0.0};    ///< wake: way of the centre beside it [m]
   double turn{0.0};    ///< wake: sine of the turn of the direction; 1: any direction

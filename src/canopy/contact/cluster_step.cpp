@@ -217,7 +217,7 @@ class Step {
   std::vector<Overlap> overlaps_;
 };
 
-// What has leant far keeps a share of it, and recovers in time.
+// A cell that has leant far keeps a share of its lean, and recovers in time.
 void updateSet(const PushLaw& law, double dt, Cluster& cluster) {
   const double left = exponential(-dt / law.recovery);
   Flat& set = cluster.set;

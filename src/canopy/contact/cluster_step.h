@@ -16,7 +16,7 @@ struct PosedBody {
   Vec3 velocity{Vec3::Zero()}, spin{Vec3::Zero()};  ///< world [m/s], [rad/s]
 };
 
-/// What the cells of a plant exert on a body, summed over steps.
+/// Impulse of the cells of a plant on a body, summed over steps.
 struct BodyLoad {
   Vec3 impulse{Vec3::Zero()};   ///< [N s]
   Vec3 moment{Vec3::Zero()};    ///< about the origin of the body [N m s]
@@ -25,7 +25,7 @@ struct BodyLoad {
   double volume{0.0};           ///< of the overlap, times the duration [m^3 s]
 };
 
-/// Swings for any time without bodies. The result is exact; below 2e-5 rad the cell rests.
+/// Steps over any time without bodies. The result is exact; below 2e-5 rad the cell rests.
 void swing(const PushLaw& law, double dt, Cluster& cluster);
 
 /// Takes one step of a cell among bodies by backward Euler, which is stable for any step, or

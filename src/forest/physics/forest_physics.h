@@ -109,7 +109,7 @@ class ForestPhysics {
   const Bodies& bodies() const { return bodies_; }
   /// Grabs that ended at the last tick by their lease or with their branch.
   const std::vector<EndedGrab>& ended() const { return ended_; }
-  /// What has come off the trees, and what did so at the last tick.
+  /// Returns the branches that have come off the trees, and those that did so at the last tick.
   const BrokenTrees& broken() const { return broken_; }
   const std::vector<Break>& breaks() const { return breaks_; }
   const std::vector<Reaction>& reactions() const { return reactions_; }
@@ -130,7 +130,7 @@ class ForestPhysics {
   /// Returns a grown tree of the layout.
   using GrowTree = std::function<std::shared_ptr<const Tree>(std::uint32_t tree)>;
   /// Writes or reads everything. @throws InvalidInput for a state that does not fit the layout.
-  /// What has come off the trees is read first, by archiveBroken(), because modes depend on it.
+  /// Requires that archiveBroken() has read the broken branches, because modes depend on them.
   void archive(Archive& a, const Layout& layout, const GrowTree& grow);
   void archiveBroken(Archive& a, const Layout& layout);
 

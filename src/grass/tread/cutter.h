@@ -10,7 +10,7 @@ namespace vegetation_sim::grass {
 
 enum class CutterShape : int { BOX = 0, DISC = 1 };
 
-/// What a mower deck or a cutter bar cuts.
+/// Area that a mower deck or a cutter bar cuts.
 struct Cutter {
   CutterShape shape{CutterShape::BOX};
   double width{0.5};    ///< across the heading, or diameter of the disc [m]

@@ -93,7 +93,7 @@ CheckedState AgentCrowd::readState(Archive& a) {
             begun_ = true;
             updateNextId();
             queueNewerInputs();
-            publishAgents(read.stamp);  // whoever takes people of the tick before needs them
+            publishAgents(read.stamp);  // subscribers that take people of the tick before need them
           }};
 }
 

@@ -28,7 +28,8 @@ class CutterFollower {
     Vec3 position{Vec3::Zero()}, heading{Vec3::Zero()};
     Nanoseconds stamp{0};
   };
-  /// State to be saved: whether tools cut, and the last places of those on the ground by name.
+  /// State to be saved: whether tools cut, and the last place of each tool on the ground by its
+  /// name.
   struct State {
     bool enabled{true};
     std::map<std::string, LastCut> last;

@@ -42,7 +42,7 @@ grass::TreadLaw fromMsg(const TreadLaw& message, const grass::TreadLaw& own,
                         const std::string& context, Faults& faults) {
   OptionalNumbers numbers(context, faults);
   grass::TreadLaw out = own;
-  // A radius out of range is the only fault that is told, not the numbers that follow from it.
+  // A radius out of range is the only fault in the error, without the numbers that follow from it.
   if (numbers.read("radius", message.has_radius, message.radius, out.radius) &&
       grass::TREAD_RADIUS.contains(message.radius)) {
     out.reach = own.reach * (message.radius / own.radius);

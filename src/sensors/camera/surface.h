@@ -10,7 +10,7 @@
 
 namespace vegetation_sim::scan {
 
-/// What a hit looks like.
+/// Appearance of the object at a hit.
 struct Surface {
   Vec3 normal{Vec3::UnitZ()};  ///< unit, towards the side that the ray comes from
   Vec3 albedo{Vec3::Zero()};   ///< linear red, green, blue

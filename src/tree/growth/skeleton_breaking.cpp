@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes off a skeleton.
+// Removal of branches from a skeleton.
 #include <algorithm>
 #include <utility>
 

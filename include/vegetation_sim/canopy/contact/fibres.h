@@ -66,7 +66,7 @@ struct Cluster {
   bool rests() const;
 };
 
-/// What bodies and tools have done to plants.
+/// Leans and cuts of plants, by bodies and tools.
 struct PushState {
   std::map<std::uint32_t, std::vector<Cluster>> plants;  ///< that lean, by id, cell by cell
   forest::Bodies bodies;                                 ///< that push

@@ -77,7 +77,7 @@ bool operator==(const BrokenBranch& a, const BrokenBranch& b);
 
 /// What has come off one tree, earliest first. What a piece had lost before is not part of it.
 using BrokenBranches = std::vector<BrokenBranch>;
-/// By tree; trees without are not listed.
+/// The entries are sorted by tree; trees without any are not listed.
 using BrokenTrees = std::map<std::uint32_t, BrokenBranches>;
 /// Returns what has come off a tree; empty for a tree that is not listed.
 const BrokenBranches& brokenOf(const BrokenTrees& trees, std::uint32_t tree);
