@@ -27,8 +27,10 @@ Vec3 oneOf(const double (&list)[N][3], std::uint64_t bits) {
 
 Clothes clothesOf(std::uint32_t id) {
   const Random random = Random(id).child(0x70656F70);
-  return {oneOf(SKINS, random.bits(0)), oneOf(HAIRS, random.bits(1)), oneOf(SHIRTS, random.bits(2)),
-          oneOf(TROUSERS, random.bits(3)), Vec3(0.12, 0.10, 0.09)};
+  return {oneOf(SKINS, random.bits(0)),  oneOf(HAIRS, random.bits(1)),
+          oneOf(SHIRTS, random.bits(2)), oneOf(TROUSERS, random.bits(3)),
+          Vec3(0.12, 0.10, 0.09),        random.bits(4) % 2 == 0,
+          random.bits(5) % 3 == 0,       random.uniform(6, 0.0, 1.0)};
 }
 
 const Vec3& colourOf(const Clothes& clothes, std::size_t limb) {
@@ -36,7 +38,8 @@ const Vec3& colourOf(const Clothes& clothes, std::size_t limb) {
   if (limb <= static_cast<std::size_t>(Part::SHOULDERS)) return clothes.shirt;
   if (limb < static_cast<std::size_t>(Part::FOOT)) return clothes.trousers;
   if (limb < static_cast<std::size_t>(Part::UPPER_ARM)) return clothes.shoes;
-  return limb < static_cast<std::size_t>(Part::FOREARM) ? clothes.shirt : clothes.skin;
+  const bool sleeve = limb < static_cast<std::size_t>(Part::FOREARM) || clothes.long_sleeves;
+  return sleeve ? clothes.shirt : clothes.skin;
 }
 
 }  // namespace vegetation_sim::crowd

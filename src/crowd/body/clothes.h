@@ -9,9 +9,11 @@
 
 namespace vegetation_sim::crowd {
 
-/// Colours of a person: red, green, blue in 0 to 1.
+/// Appearance of a person. Colours are red, green, blue in 0 to 1.
 struct Clothes {
   Vec3 skin, hair, shirt, trousers, shoes;
+  bool long_sleeves{false}, long_hair{false};
+  double build{0.5};  ///< 0: broad hips; 1: broad shoulders
 };
 
 /// Returns the clothes of an id, equal in every process.

@@ -6,105 +6,109 @@
 #include <array>
 #include <cmath>
 
+#include "rviz/crowd/body_shape.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
 
-using crowd::Part;
-
 constexpr double CLOTH = 0.72;  // factor of the colours, which sunlight makes brighter
-constexpr int MOST_SIDES = 12;
-// Heights [pixel] above which limbs have all sides, half of them, and round ends.
-constexpr double FINE = 120.0, COARSE = 24.0, CAPS = 35.0;
-constexpr std::array<double, 3> CAP_ANGLES{0.0, 0.6, 1.15};  // [rad] of the rings of a cap
-
-// Factors on a capsule: radius at the start and the end, breadth and depth.
-struct Form {
-  double from{1.0}, to{1.0}, broad{1.0}, deep{1.0};
-};
-
-Form formOf(std::size_t limb) {
-  switch (static_cast<Part>(limb)) {
-    case Part::HEAD:
-      return {0.82, 0.95, 0.82, 0.95};
-    case Part::CHEST:
-      return {0.86, 1.0, 1.2, 0.8};
-    case Part::SHOULDERS:
-      return {0.85, 0.85, 1.0, 1.0};
-    case Part::PELVIS:
-      return {0.9, 0.9, 1.0, 1.0};
-    default:
-      break;
-  }
-  if (limb < static_cast<std::size_t>(Part::THIGH)) return {};
-  if (limb < static_cast<std::size_t>(Part::SHANK)) return {1.15, 0.8, 1.0, 1.0};
-  if (limb < static_cast<std::size_t>(Part::FOOT)) return {1.1, 0.72, 1.0, 1.0};
-  if (limb < static_cast<std::size_t>(Part::UPPER_ARM)) return {1.1, 1.1, 1.35, 1.0};
-  if (limb < static_cast<std::size_t>(Part::FOREARM)) return {1.2, 0.95, 1.0, 1.0};
-  return {1.05, 0.85, 1.0, 1.0};
-}
+constexpr double EYES = 0.35;   // the same of the sockets of eyes
+constexpr std::size_t MOST_SIDES = 12;
+// Heights [pixel] above which tubes have all sides, half of them, and all rings.
+constexpr double FINE = 120.0, COARSE = 24.0, RINGS = 35.0;
 
 // Rises from 0 at a height to 1 at 1.5 times the height.
 double risen(double pixels, double from) {
   return smootherStep((pixels / from - 1.0) / 0.5);
 }
 
-bool isHead(std::size_t limb) {
-  return limb == static_cast<std::size_t>(Part::HEAD);
+struct Corner {
+  Vec3 at, colour;
+};
+
+Corner between(const Corner& a, const Corner& b, double share) {
+  return {(1.0 - share) * a.at + share * b.at, (1.0 - share) * a.colour + share * b.colour};
 }
 
-/// Draws rings across one limb and joins them.
-class LimbWriter {
- public:
-  LimbWriter(const crowd::Limb& limb, const Form& form, const BodyStyle& style,
-             const Daylight& daylight, grass::GrassMesh& mesh)
-      : limb_(limb), form_(form), style_(style), daylight_(daylight), mesh_(mesh) {
-    const Vec3 span = limb.to - limb.from;
-    const double size = length(span);
-    along_ = size > 1e-9 ? Vec3(span / size) : Vec3(Vec3::UnitZ());
-    const Vec3 left(style.left_x, style.left_y, 0.0);
-    const Vec3 flat = left - dot(left, along_) * along_;
-    const Vec3 any = cross(along_, std::fabs(along_.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY());
-    side_ = length(flat) > 0.3 ? Vec3(flat / length(flat)) : Vec3(any / length(any));
-    back_ = cross(along_, side_);
-  }
+using Corners = std::array<Corner, MOST_SIDES>;
 
-  /// Adds a ring at the start (0) or the end (1) of the limb, `rise` [rad] up its cap.
-  /// @param behind colour of the back.
-  void ring(bool end, double rise, const Vec3& colour, const Vec3& behind) {
-    const SinCos up = sinCos(rise);
-    const double sign = end ? 1.0 : -1.0;
-    const double radius = limb_.radius * (end ? form_.to : form_.from);
-    const Vec3 centre = (end ? limb_.to : limb_.from) + sign * up.sin * radius * along_;
-    const auto first = static_cast<std::uint32_t>(mesh_.vertexCount());
-    const auto sides = static_cast<std::size_t>(style_.sides);
-    std::array<Corner, MOST_SIDES> corners;
-    for (std::size_t i = 0; i < sides; ++i) {
-      const SinCos turn = sinCosTurns(static_cast<double>(i) / style_.sides);
-      const Vec3 out = turn.cos * form_.broad * side_ + turn.sin * form_.deep * back_;
-      const Vec3 facing = turn.cos / form_.broad * side_ + turn.sin / form_.deep * back_;
-      const Vec3 normal = up.cos * facing + sign * up.sin * along_;
-      corners[i] = {centre + up.cos * radius * out,
-                    lit(normal / length(normal), turn.sin > 0.2 ? behind : colour)};
+/// Draws the tubes of a body.
+class TubeWriter {
+ public:
+  TubeWriter(const std::vector<BodyRing>& rings, const BodyStyle& style, const Daylight& daylight,
+             grass::GrassMesh& mesh)
+      : rings_(rings), style_(style), daylight_(daylight), mesh_(mesh) {}
+
+  void write() {
+    const std::size_t count = rings_.size();
+    for (std::size_t first = 0; first < count;) {
+      std::size_t end = first + 1;
+      while (end < count && !rings_[end].begins) ++end;
+      writeTube(first, end);
+      first = end;
     }
-    for (std::size_t i = 1; i < sides && style_.odd < 1.0; i += 2)
-      corners[i].approach(corners[i - 1], corners[(i + 1) % sides], style_.odd);
-    for (std::size_t i = 0; i < sides; ++i) vertex(corners[i]);
-    if (started_) join(first);
-    started_ = true;
-    last_ = first;
   }
 
  private:
-  struct Corner {
-    Vec3 at, colour;
-
-    void approach(const Corner& a, const Corner& b, double own) {
-      at = own * at + 0.5 * (1.0 - own) * (a.at + b.at);
-      colour = own * colour + 0.5 * (1.0 - own) * (a.colour + b.colour);
+  void writeTube(std::size_t first, std::size_t end) {
+    bool joined = false;
+    for (std::size_t i = first; i < end; ++i) {
+      if (rings_[i].fine && style_.rings <= 0.0) continue;
+      const auto at = static_cast<std::uint32_t>(mesh_.vertexCount());
+      writeRing(cornersOf(i, first, end));
+      if (joined) join(at);
+      joined = true;
     }
-  };
+  }
+
+  // A fine ring of a small body lies between its neighbours, so that nothing changes when it goes.
+  Corners cornersOf(std::size_t i, std::size_t first, std::size_t end) const {
+    const Corners own = ellipse(i, first, end);
+    if (!rings_[i].fine || style_.rings >= 1.0) return own;
+    std::size_t before = i, after = i;
+    while (before > first && rings_[before].fine) --before;
+    while (after + 1 < end && rings_[after].fine) ++after;
+    if (rings_[before].fine) before = after;
+    if (rings_[after].fine) after = before;
+    const Corners a = ellipse(before, first, end), b = ellipse(after, first, end);
+    const double share = after == before ? 0.0 : double(i - before) / double(after - before);
+    Corners out;
+    for (std::size_t k = 0; k < sides(); ++k)
+      out[k] = between(between(a[k], b[k], share), own[k], style_.rings);
+    return out;
+  }
+
+  // Slope of a radius along the tube.
+  double slope(std::size_t i, std::size_t first, std::size_t end, double BodyRing::*radius) const {
+    const BodyRing& a = rings_[i > first ? i - 1 : i];
+    const BodyRing& b = rings_[i + 1 < end ? i + 1 : i];
+    const double way = dot(b.centre - a.centre, rings_[i].along);
+    return way > 1e-6 ? std::clamp((b.*radius - a.*radius) / way, -4.0, 4.0) : 0.0;
+  }
+
+  Corners ellipse(std::size_t i, std::size_t first, std::size_t end) const {
+    const BodyRing& ring = rings_[i];
+    const double broader = slope(i, first, end, &BodyRing::broad);
+    const double deeper = slope(i, first, end, &BodyRing::deep);
+    Corners out;
+    for (std::size_t k = 0; k < sides(); ++k) {
+      const SinCos turn = sinCosTurns(static_cast<double>(k) / style_.sides);
+      const double front = -turn.sin;
+      const Vec3 facing = turn.cos * ring.deep * ring.across + turn.sin * ring.broad * ring.back;
+      const double steep = turn.cos * turn.cos * broader + turn.sin * turn.sin * deeper;
+      const Vec3 normal = facing / std::max(1e-9, length(facing)) - steep * ring.along;
+      const double nose = front > 0.95 ? ring.nose : 0.0;
+      const bool eye = ring.eyes && front > 0.7 && front < 0.95;
+      out[k] = {ring.centre + turn.cos * ring.broad * ring.across +
+                    (turn.sin * ring.deep - nose) * ring.back,
+                lit(normal / length(normal),
+                    (eye ? EYES : CLOTH) * (turn.sin > 0.2 ? ring.behind : ring.colour))};
+    }
+    for (std::size_t k = 1; k < sides() && style_.odd < 1.0; k += 2)
+      out[k] = between(between(out[k - 1], out[(k + 1) % sides()], 0.5), out[k], style_.odd);
+    return out;
+  }
 
   Vec3 lit(const Vec3& normal, const Vec3& colour) const {
     Vec3 out;
@@ -120,6 +124,10 @@ class LimbWriter {
     return out;
   }
 
+  void writeRing(const Corners& corners) {
+    for (std::size_t k = 0; k < sides(); ++k) vertex(corners[k]);
+  }
+
   void vertex(const Corner& corner) {
     const Vec3 local = corner.at - mesh_.origin;
     for (int i = 0; i < 3; ++i) mesh_.positions.push_back(static_cast<float>(local[i]));
@@ -129,52 +137,41 @@ class LimbWriter {
     mesh_.colours.push_back(255);
   }
 
+  // Joins the ring before a vertex to the one that begins there.
   void join(std::uint32_t next) {
     const auto sides = static_cast<std::uint32_t>(style_.sides);
+    const std::uint32_t last = next - sides;
     for (std::uint32_t i = 0; i < sides; ++i) {
       const std::uint32_t j = (i + 1) % sides;
       mesh_.indices.insert(mesh_.indices.end(),
-                           {last_ + i, last_ + j, next + j, last_ + i, next + j, next + i});
+                           {last + i, last + j, next + j, last + i, next + j, next + i});
     }
   }
 
-  const crowd::Limb& limb_;
-  Form form_;
+  std::size_t sides() const { return static_cast<std::size_t>(style_.sides); }
+
+  const std::vector<BodyRing>& rings_;
   const BodyStyle& style_;
   const Daylight& daylight_;
   grass::GrassMesh& mesh_;
-  Vec3 along_, side_, back_;
-  bool started_{false};
-  std::uint32_t last_{0};
 };
 
 }  // namespace
 
 BodyStyle bodyStyle(double pixels) {
   BodyStyle out;
-  out.sides = pixels > FINE ? MOST_SIDES : pixels > COARSE ? MOST_SIDES / 2 : MOST_SIDES / 4;
+  const int most = static_cast<int>(MOST_SIDES);
+  out.sides = pixels > FINE ? most : pixels > COARSE ? most / 2 : most / 4;
   if (pixels > COARSE) out.odd = risen(pixels, pixels > FINE ? FINE : COARSE);
-  out.caps = risen(pixels, CAPS);
+  out.rings = risen(pixels, RINGS);
   return out;
 }
 
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
                 const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh) {
-  for (std::size_t i = 0; i < crowd::PARTS; ++i) {
-    LimbWriter limb(skeleton[i], formOf(i), style, daylight, mesh);
-    const Vec3 own = CLOTH * colourOf(clothes, i), hair = CLOTH * clothes.hair;
-    const Vec3& end = isHead(i) ? hair : own;
-    const double round = isHead(i) ? 1.0 : style.caps;
-    if (round > 0.0)
-      for (std::size_t k = CAP_ANGLES.size() - 1; k > 0; --k)
-        limb.ring(false, round * CAP_ANGLES[k], own, end);
-    limb.ring(false, 0.0, own, end);
-    if (isHead(i)) limb.ring(true, -0.1, own, end);  // the brow, where hair begins
-    limb.ring(true, 0.0, end, end);
-    if (round > 0.0)
-      for (std::size_t k = 1; k < CAP_ANGLES.size(); ++k)
-        limb.ring(true, round * CAP_ANGLES[k], end, end);
-  }
+  std::vector<BodyRing> rings;
+  shapeBody(skeleton, clothes, Vec3(style.left_x, style.left_y, 0.0), rings);
+  TubeWriter(rings, style, daylight, mesh).write();
 }
 
 }  // namespace vegetation_sim::view

@@ -11,15 +11,15 @@ namespace vegetation_sim::view {
 
 /// Level of detail of a body, and its heading.
 struct BodyStyle {
-  int sides{12};     ///< of a limb: 12, 6 or 3
-  double odd{1.0};   ///< 0: odd edges lie between their neighbours, as with half the sides
-  double caps{1.0};  ///< roundness of the ends of limbs; 0: flat, except the head
+  int sides{12};      ///< of a tube: 12, 6 or 3
+  double odd{1.0};    ///< 0: odd edges lie between their neighbours, as with half the sides
+  double rings{1.0};  ///< 0: fine rings lie between their neighbours, and are left out
   double left_x{0.0}, left_y{1.0};  ///< unit vector to the left of the walker
 };
 /// Returns the style of a body of this height in the picture. It is continuous in the height.
 BodyStyle bodyStyle(double pixels);
 
-/// Appends a lit body with tapering limbs, a flat chest, hair and hands.
+/// Appends a lit body.
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
                 const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh);
 

@@ -89,6 +89,27 @@ TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
   EXPECT_LE(colour, 3);
 }
 
+// The crown is as high as the person, within 1 %, the soles are on the ground, and fingers reach
+// below the wrists.
+TEST(BodyMesh, IsAsLargeAsThePerson) {
+  crowd::Walker walker;
+  walker.height = HEIGHT;
+  const crowd::Skeleton skeleton = crowd::skeletonOf(walker, terrain::HeightMap());
+  const double wrist = limbOf(skeleton, crowd::Part::FOREARM).to.z();
+  const grass::GrassMesh mesh = meshAt(400.0);
+  double low = HEIGHT, high = 0.0, hand = HEIGHT;
+  for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+    const Vec3 at = pointOf(mesh, i);
+    low = std::min(low, at.z());
+    high = std::max(high, at.z());
+    if (std::fabs(at.y()) > 0.12 * HEIGHT) hand = std::min(hand, at.z());
+  }
+  EXPECT_NEAR(high, HEIGHT, 0.01 * HEIGHT);
+  EXPECT_NEAR(low, 0.0, 0.003);
+  EXPECT_LT(hand, wrist - 0.08 * HEIGHT);
+  EXPECT_GT(hand, wrist - 0.13 * HEIGHT);
+}
+
 TEST(BodyMesh, SmallBodiesCostLess) {
   EXPECT_GT(meshAt(400.0).indices.size(), 10 * meshAt(10.0).indices.size());
   EXPECT_GT(meshAt(10.0).indices.size(), 0u);
