@@ -37,8 +37,8 @@ using Corners = std::array<Corner, MOST_SIDES>;
 class TubeWriter {
  public:
   TubeWriter(const std::vector<BodyRing>& rings, const BodyStyle& style, const Daylight& daylight,
-             grass::GrassMesh& mesh)
-      : rings_(rings), style_(style), daylight_(daylight), mesh_(mesh) {}
+             const LightAt& light, grass::GrassMesh& mesh)
+      : rings_(rings), style_(style), daylight_(daylight), light_(light), mesh_(mesh) {}
 
   void write() {
     const std::size_t count = rings_.size();
@@ -91,6 +91,7 @@ class TubeWriter {
     const BodyRing& ring = rings_[i];
     const double broader = slope(i, first, end, &BodyRing::broad);
     const double deeper = slope(i, first, end, &BodyRing::deep);
+    const SharedLight::Shares shares = light_(ring.centre);
     Corners out;
     for (std::size_t k = 0; k < sides(); ++k) {
       const SinCos turn = sinCosTurns(static_cast<double>(k) / style_.sides);
@@ -102,7 +103,7 @@ class TubeWriter {
       const bool eye = ring.eyes && front > 0.7 && front < 0.95;
       out[k] = {ring.centre + turn.cos * ring.broad * ring.across +
                     (turn.sin * ring.deep - nose) * ring.back,
-                lit(normal / length(normal),
+                lit(normal / length(normal), shares,
                     (eye ? EYES : CLOTH) * (turn.sin > 0.2 ? ring.behind : ring.colour))};
     }
     for (std::size_t k = 1; k < sides() && style_.odd < 1.0; k += 2)
@@ -110,14 +111,14 @@ class TubeWriter {
     return out;
   }
 
-  Vec3 lit(const Vec3& normal, const Vec3& colour) const {
+  Vec3 lit(const Vec3& normal, const SharedLight::Shares& shares, const Vec3& colour) const {
     Vec3 out;
-    const double facing = std::max(0.0, 0.15 + 0.85 * dot(normal, daylight_.to_sun));
+    const double facing = shares.sun * std::max(0.0, 0.15 + 0.85 * dot(normal, daylight_.to_sun));
     const auto up = static_cast<float>(0.5 + 0.5 * normal.z());
     for (std::size_t i = 0; i < 3; ++i) {
       const float around = daylight_.ground_light[i] * (1.f - up) + daylight_.zenith_light[i] * up;
       const double light =
-          static_cast<double>(daylight_.sun[i]) * facing + static_cast<double>(around);
+          static_cast<double>(daylight_.sun[i]) * facing + shares.sky * static_cast<double>(around);
       const auto axis = static_cast<int>(i);
       out[axis] = std::clamp(colour[axis] * light, 0.0, 1.0);
     }
@@ -153,6 +154,7 @@ class TubeWriter {
   const std::vector<BodyRing>& rings_;
   const BodyStyle& style_;
   const Daylight& daylight_;
+  const LightAt& light_;
   grass::GrassMesh& mesh_;
 };
 
@@ -168,10 +170,11 @@ BodyStyle bodyStyle(double pixels) {
 }
 
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
-                const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh) {
+                const BodyStyle& style, const Daylight& daylight, const LightAt& light,
+                grass::GrassMesh& mesh) {
   std::vector<BodyRing> rings;
   shapeBody(skeleton, clothes, Vec3(style.left_x, style.left_y, 0.0), rings);
-  TubeWriter(rings, style, daylight, mesh).write();
+  TubeWriter(rings, style, daylight, light, mesh).write();
 }
 
 }  // namespace vegetation_sim::view

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 #include "crowd/body/body_skeleton.h"
 #include "crowd/body/clothes.h"
 #include "grass/mesh/grass_geometry.h"
 #include "rviz/textures/sky_texture.h"
+#include "rviz/trees/shared_light.h"
 
 namespace vegetation_sim::view {
 
@@ -19,8 +22,12 @@ struct BodyStyle {
 /// Returns the style of a body of this height in the picture. It is continuous in the height.
 BodyStyle bodyStyle(double pixels);
 
+/// Returns the shares of light that reach a place.
+using LightAt = std::function<SharedLight::Shares(const Vec3& place)>;
+
 /// Appends a lit body.
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
-                const BodyStyle& style, const Daylight& daylight, grass::GrassMesh& mesh);
+                const BodyStyle& style, const Daylight& daylight, const LightAt& light,
+                grass::GrassMesh& mesh);
 
 }  // namespace vegetation_sim::view

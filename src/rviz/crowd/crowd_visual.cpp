@@ -73,6 +73,7 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
       length(forward_ - view.forward) < STILL)
     return;
   drawn_ = crowd.changes();
+  frame_ = crowd.frame();
   eye_ = view.eye.position;
   forward_ = view.forward;
   body_mesh_.clear();
@@ -108,7 +109,10 @@ void CrowdVisual::addPerson(const Person& person, const terrain::HeightMap& terr
   const SinCos heading = sinCos(walker.heading);
   style.left_x = -heading.sin;
   style.left_y = heading.cos;
-  appendBody(skeleton, crowd::clothesOf(walker.id), style, daylight_, body_mesh_);
+  const auto light = [&](const Vec3& place) {
+    return SharedLight::at(node_->getCreator(), frame_, place);
+  };
+  appendBody(skeleton, crowd::clothesOf(walker.id), style, daylight_, light, body_mesh_);
   if (options.shadows) addShadow(person, terrain, skeleton);
 }
 

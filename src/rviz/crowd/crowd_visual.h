@@ -4,6 +4,7 @@
 
 #include <OgreSceneNode.h>
 
+#include <string>
 #include <vector>
 
 #include "crowd/body/body_skeleton.h"
@@ -63,6 +64,7 @@ class CrowdVisual {
   grass::GrassMesh body_mesh_, shadow_mesh_;
   Daylight daylight_;
   int drawn_{-1};  // SubscribedCrowd::changes()
+  std::string frame_;
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   CrowdReport report_;
 };

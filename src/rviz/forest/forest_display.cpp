@@ -58,6 +58,8 @@ void ForestDisplay::open() {
 
 void ForestDisplay::close() {
   dropGround();
+  shared_light_.reset();
+  lit_ = -1;
   forest_.reset();
   source_.reset();
 }
@@ -91,11 +93,20 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   }
   forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
                   properties_->options());
-  if (forest_->treeSet() == nullptr || !properties_->ground()) return;
+  if (forest_->treeSet() == nullptr) return;
+  shareLight();
+  if (!properties_->ground()) return;
   if (givesGround(source_->replica().terrain()))
     makeGround();
   else
     makeShadows();
+}
+
+void ForestDisplay::shareLight() {
+  if (lit_ == forest_->treeSets()) return;
+  shared_light_ = std::make_unique<view::SharedLight>(scene_manager_, source_->frame(),
+                                                      forest_->treeSet()->lightGrid());
+  lit_ = forest_->treeSets();
 }
 
 void ForestDisplay::dropGround() {

@@ -11,6 +11,7 @@
 #include "rviz/ground/ground_visual.h"
 #include "rviz/ground/shadow_visual.h"
 #include "rviz/scenery/scenery_display.h"
+#include "rviz/trees/shared_light.h"
 
 namespace vegetation_sim {
 
@@ -42,6 +43,7 @@ class ForestDisplay : public SceneryDisplay {
  private:
   void makeGround();
   void makeShadows();
+  void shareLight();
 
   std::unique_ptr<view::ForestProperties> properties_;
   std::unique_ptr<SubscribedForest> source_;
@@ -49,6 +51,8 @@ class ForestDisplay : public SceneryDisplay {
   std::unique_ptr<view::GroundVisual> ground_;
   std::unique_ptr<view::ShadowVisual> shadows_;  // if another display draws the ground
   Vec3 to_sun_{Vec3::Zero()};                    // for which trees are lit
+  std::unique_ptr<view::SharedLight> shared_light_;
+  int lit_{-1};  // tree set whose light is shared
   int layouts_{0};
   int grounded_{-1};  // tree set for which ground or shadows were made
 };

@@ -134,11 +134,12 @@ void TreeSet::castLight(const Vec3& to_sun, bool leaves) {
     extent_.high = extent_.high.cwiseMax(tree->foot() + around + up);
   }
   const Vec3 margin(MARGIN, MARGIN, 1.0);
-  light_ =
-      std::make_unique<forest::LightGrid>(extent_.low - margin, extent_.high + margin, LIGHT_CELL);
+  auto light =
+      std::make_shared<forest::LightGrid>(extent_.low - margin, extent_.high + margin, LIGHT_CELL);
   if (leaves)
-    for (const auto& tree : trees_) tree->addTo(*light_);
-  light_->cast(to_sun);
+    for (const auto& tree : trees_) tree->addTo(*light);
+  light->cast(to_sun);
+  light_ = std::move(light);
 }
 
 }  // namespace vegetation_sim::view

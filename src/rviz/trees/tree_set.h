@@ -49,6 +49,7 @@ class TreeSet {
   bool hasLeaves() const { return leaves_; }
   /// @pre ready()
   const forest::LightGrid& light() const { return *light_; }
+  std::shared_ptr<const forest::LightGrid> lightGrid() const { return light_; }
 
  private:
   void castLight(const Vec3& to_sun, bool leaves);
@@ -58,7 +59,7 @@ class TreeSet {
   std::vector<std::unique_ptr<DrawnTree>> trees_;
   Extent extent_;
   bool leaves_{true};
-  std::unique_ptr<forest::LightGrid> light_;
+  std::shared_ptr<const forest::LightGrid> light_;
 };
 
 }  // namespace vegetation_sim::view

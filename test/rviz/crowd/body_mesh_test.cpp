@@ -15,12 +15,13 @@ namespace {
 
 constexpr double HEIGHT = 1.7;  // [m]
 
-grass::GrassMesh meshAt(double pixels) {
+grass::GrassMesh meshAt(double pixels, const SharedLight::Shares& light = {}) {
   crowd::Walker walker;
   walker.height = HEIGHT;
   grass::GrassMesh out;
-  appendBody(crowd::skeletonOf(walker, terrain::HeightMap()), crowd::clothesOf(3),
-             bodyStyle(pixels), Daylight(), out);
+  appendBody(
+      crowd::skeletonOf(walker, terrain::HeightMap()), crowd::clothesOf(3), bodyStyle(pixels),
+      Daylight(), [&](const Vec3&) { return light; }, out);
   return out;
 }
 
@@ -108,6 +109,18 @@ TEST(BodyMesh, IsAsLargeAsThePerson) {
   EXPECT_NEAR(low, 0.0, 0.003);
   EXPECT_LT(hand, wrist - 0.08 * HEIGHT);
   EXPECT_GT(hand, wrist - 0.13 * HEIGHT);
+}
+
+double brightness(const grass::GrassMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.colours.size(); ++i)
+    if (i % 4 != 3) sum += mesh.colours[i];
+  return sum / (0.75 * static_cast<double>(mesh.colours.size()));
+}
+
+TEST(BodyMesh, IsDarkerInTheShade) {
+  EXPECT_LT(brightness(meshAt(400.0, {0.0, 1.0})), 0.75 * brightness(meshAt(400.0)));
+  EXPECT_LT(brightness(meshAt(400.0, {0.0, 0.5})), 0.55 * brightness(meshAt(400.0, {0.0, 1.0})));
 }
 
 TEST(BodyMesh, SmallBodiesCostLess) {
