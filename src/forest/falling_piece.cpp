@@ -26,6 +26,23 @@ Quat rotationBy(const Vec3& axis, double angle) {
   return {half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()};
 }
 
+/// Ways under linear drag after x time constants: of an initial speed v over v t, and of an
+/// acceleration g over g t^2; 1 and 1/2 without drag.
+struct DampedWay {
+  double coasted, fallen;
+};
+
+// (1 - e^-x) / x and (x - 1 + e^-x) / x^2; the series is within 1e-13 below its end.
+DampedWay dampedWay(double x) {
+  if (x < 0.02) {
+    const double fallen =
+        0.5 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0))));
+    return {1.0 - x * fallen, fallen};
+  }
+  const double coasted = (1.0 - exponential(-x)) / x;
+  return {coasted, (1.0 - coasted) / x};
+}
+
 }  // namespace
 
 FallingPiece::FallingPiece(const Layout& layout, const terrain::HeightMap& terrain,
@@ -41,6 +58,9 @@ FallingPiece::FallingPiece(const Layout& layout, const terrain::HeightMap& terra
   const Species& species = layout.species[tree_.seed.species];
   const Composite body = woodOf(skeleton, species, Material::BEAM).subtree.front();
   centre_ = body.moment / body.mass;
+  const double added = addedMass(species);
+  gravity_ = GRAVITY * (1.0 - added) / (1.0 + added);
+  drag_ = body.drag / body.mass * std::max(0.0, 1.0 - AIR_DENSITY / species.fluid_density);
   const Pose& joint = skeleton.branches.front().rest;
   const Quat back = conjugate(joint.orientation);
   points_.push_back(Vec3::Zero());
@@ -54,12 +74,14 @@ FallingPiece::FallingPiece(const Layout& layout, const terrain::HeightMap& terra
   land(terrain);
 }
 
-// The centre of mass falls on a parabola, and the piece keeps its angular velocity.
+// The centre of mass falls on a parabola, less what the drag of the fluid at rest takes beyond that
+// of air; the piece keeps its angular velocity.
 Pose FallingPiece::fallenAt(double time) const {
   const Quat& from = record_.pose.orientation;
   const Vec3 arm = rotate(from, centre_);
-  const Vec3 centre =
-      record_.pose.position + arm + time * velocity_ - Vec3(0.0, 0.0, 0.5 * GRAVITY * time * time);
+  const DampedWay way = dampedWay(drag_ * time);
+  const Vec3 centre = record_.pose.position + arm + (way.coasted * time) * velocity_ -
+                      Vec3(0.0, 0.0, way.fallen * gravity_ * time * time);
   const double spin = length(record_.spin);
   Pose out;
   out.orientation =

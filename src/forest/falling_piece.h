@@ -11,9 +11,11 @@ namespace vegetation_sim::forest {
 
 /// A piece that has come off a tree, as displays and sensors show it: rigid and falling freely,
 /// with the velocity and the angular velocity that its joint had, until a tip meets the ground;
-/// then it turns about its centre of mass until that lies level with its joint, and rests. A
-/// function of its record and the stamp alone, so that all replicas and late joiners have the same
-/// bits. It touches nothing but the ground, and rests where it is after 10 s of fall.
+/// then it turns about its centre of mass until that lies level with its joint, and rests. In a
+/// fluid denser than air, which is taken to be at rest, it has buoyancy, added mass and linear
+/// drag, and rises if it is lighter. A function of its record and the stamp alone, so that all
+/// replicas and late joiners have the same bits. It touches nothing but the ground, and rests where
+/// it is after 10 s of fall.
 class FallingPiece {
  public:
   /// @param number of the piece in `broken`, which has all that has come off the tree.
@@ -57,6 +59,8 @@ class FallingPiece {
   std::size_t work_{0};
   std::vector<Vec3> points_;       // ends of its wood, in the frame of its joint [m]
   Vec3 centre_{Vec3::Zero()};      // of mass, in the frame of its joint [m]
+  double gravity_{0.0};            // acceleration downwards without drag, below 0: it rises [m/s^2]
+  double drag_{0.0};               // per mass [1/s]
   Vec3 velocity_{Vec3::Zero()};    // of the centre of mass as it comes off, world [m/s]
   double reach_{0.0};              // [m]
   double fall_time_{0.0};          // [s]

@@ -24,7 +24,9 @@ struct Falling {
   BrokenBranches broken{BrokenBranch()};
   Composite body;
 
-  explicit Falling(const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero()) {
+  explicit Falling(const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero(),
+                   double fluid_density = AIR_DENSITY) {
+    layout.species[0].fluid_density = fluid_density;
     BrokenBranch& record = broken.front();
     record.branch = whole.skeleton.depth_end[0];
     record.stamp = PHYSICS_START;
@@ -71,6 +73,45 @@ TEST(FallingPiece, CentreOfMassFallsFreely) {
   const Pose later = piece.poseAt(PHYSICS_START + seconds(0.3)).front();
   const Quat turn = later.orientation * conjugate(joint.orientation);
   EXPECT_NEAR(2.0 * std::acos(std::fabs(turn.w)), 0.3 * length(spin), 1e-9);
+}
+
+// N11: in water the weight of the displaced water is gone, as much water moves with the piece, and
+// linear drag takes its speed. Reference: small explicit steps; tolerance: their error.
+TEST(FallingPiece, WaterCarriesAndBrakesIt) {
+  const Vec3 velocity(0.5, -0.2, 0.3);
+  for (const double water : {500.0, 1025.0}) {
+    const Falling scene(velocity, Vec3::Zero(), water);
+    const Species& oak = scene.layout.species[0];
+    const double excess = water - AIR_DENSITY, drag = scene.body.drag * excess / water;
+    const double own = scene.body.mass * oak.density / (oak.density + excess);
+    const double weight = 9.81 * own * (1.0 - excess / oak.density);
+    const FallingPiece piece = scene.piece();
+    Vec3 centre = scene.centreOf(piece, PHYSICS_START), speed = velocity;
+    constexpr double STEP = 1e-4;
+    for (int i = 1; i <= 5000; ++i) {
+      const Vec3 force = Vec3(0, 0, -weight) - drag * speed;
+      const Vec3 change = (STEP / scene.body.mass) * force;
+      centre += STEP * (speed + 0.5 * change);
+      speed += change;
+      if (i % 500 != 0 || PHYSICS_START + seconds(STEP * i) > piece.landsAt()) continue;
+      EXPECT_NEAR(length(scene.centreOf(piece, PHYSICS_START + seconds(STEP * i)) - centre), 0.0,
+                  1e-3)
+          << water << " " << STEP * i;
+    }
+  }
+}
+
+TEST(FallingPiece, RisesInAHeavierFluidAndSinksInALighterOne) {
+  const auto risen = [](double fluid_density) {
+    const Falling scene(Vec3::Zero(), Vec3::Zero(), fluid_density);
+    const FallingPiece piece = scene.piece();
+    return scene.centreOf(piece, PHYSICS_START + seconds(0.3)).z() -
+           scene.centreOf(piece, PHYSICS_START).z();
+  };
+  const double density = Falling().layout.species[0].density;
+  EXPECT_GT(risen(1.1 * density), 1e-4);
+  EXPECT_NEAR(risen(density + AIR_DENSITY), 0.0, 1e-9);
+  EXPECT_LT(risen(0.9 * density), -1e-4);
 }
 
 // It meets the ground with its lowest point, without a jump, and lies level on it. Tolerance:

@@ -23,17 +23,21 @@ class TreePieces {
   void add(Break piece) {
     const int root = piece.piece.branch, number = static_cast<int>(list_.size());
     mark(root, number);
-    piece.mass = wood_.subtree[index(root)].mass;
+    piece.mass = ownMass(root);
     for (const Break& earlier : list_) {
       const int parent = skeleton_.branches[index(earlier.piece.branch)].parent;
       if (parent >= 0 && piece_of_[index(parent)] == number)
-        piece.mass -= wood_.subtree[index(earlier.piece.branch)].mass;
+        piece.mass -= ownMass(earlier.piece.branch);
     }
     list_.push_back(std::move(piece));
   }
   const std::vector<Break>& list() const { return list_; }
 
  private:
+  // Mass of a sub-tree without the fluid that moves with it.
+  double ownMass(int branch) const {
+    return wood_.subtree[index(branch)].mass / (1.0 + wood_.added_mass);
+  }
   void mark(int root, int number) {
     const std::vector<Branch>& branches = skeleton_.branches;
     piece_of_[index(root)] = number;

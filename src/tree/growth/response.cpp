@@ -36,7 +36,7 @@ std::vector<Vec3> subtreeLevers(const Skeleton& skeleton, const Species& species
 
 double dragPerSpeed(const Branch& b, const Species& s) {
   const double area = (b.base_radius + b.tip_radius) * b.length + b.leaves * s.leaf_area;
-  return 0.5 * AIR_DENSITY * s.drag_coefficient * area * s.reference_speed;
+  return 0.5 * s.fluid_density * s.drag_coefficient * area * s.reference_speed;
 }
 
 double jointStiffness(const Branch& b, const Species& s) {

@@ -58,6 +58,10 @@ void describeStrength(FieldVisitor& v, Species& s) {
   v.number("strength", s.strength, "Pa", {0.0, 1e12});
 }
 
+void describeFluid(FieldVisitor& v, Species& s) {
+  v.number("fluid_density", s.fluid_density, "kg/m^3", {0.1, 2000.0});
+}
+
 void describe(FieldVisitor& v, Design& d) {
   v.number("size", d.size, "", {0.2, 3.0});
   v.number("children", d.children, "", {0.2, 3.0});
@@ -102,6 +106,7 @@ void check(Species species, Faults& faults) {
   describe(checker, species);
   describeHabit(checker, species);
   describeStrength(checker, species);
+  describeFluid(checker, species);
   for (std::size_t i = 0; i < species.limbs.size(); ++i) {
     LimbRule& rule = species.limbs[i];
     const std::string where = context + "limbs[" + std::to_string(i) + "]: ";
@@ -165,6 +170,7 @@ Species readSpecies(YamlSection section) {
   describe(section, species);
   describeHabit(section, species);
   describeStrength(section, species);
+  describeFluid(section, species);
   std::vector<YamlSection> limbs = section.sections("limbs");
   if (!limbs.empty()) species.limbs.clear();
   for (YamlSection& limb : limbs) {
@@ -185,6 +191,7 @@ std::string writeSpecies(const Species& species) {
   describe(writer, copy);
   describeHabit(writer, copy);
   describeStrength(writer, copy);
+  describeFluid(writer, copy);
   out << YAML::Key << "limbs" << YAML::Value << YAML::BeginSeq;
   for (LimbRule& rule : copy.limbs) {
     out << YAML::Flow << YAML::BeginMap;
@@ -219,10 +226,11 @@ std::uint64_t hash(const Species& species) {
   out.add(copy.name);
   describe(hasher, copy);
   for (LimbRule& rule : copy.limbs) describe(hasher, rule);
-  // A species of the usual habit, or that never breaks, keeps the hash that it had before there
-  // were others.
+  // A species of the usual habit, that never breaks or is in air keeps the hash that it had before
+  // there were others.
   if (copy.turn != Species().turn) describeHabit(hasher, copy);
   if (copy.strength > 0.0) describeStrength(hasher, copy);
+  if (copy.fluid_density != AIR_DENSITY) describeFluid(hasher, copy);
   return out.value();
 }
 

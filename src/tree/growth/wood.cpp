@@ -29,7 +29,7 @@ Composite bar(const Branch& b, const Species& s) {
   const double radius = 0.5 * (b.base_radius + b.tip_radius), r2 = radius * radius;
   const double wood = s.density * PI * r2 * b.length, leaves = b.leaves * s.leaf_mass;
   Composite out;
-  out.mass = wood + leaves;
+  out.mass = (wood + leaves) * (1.0 + addedMass(s));
   out.moment = Vec3(0.0, 0.0, 0.5 * b.length * out.mass);
   const double across = out.mass * b.length * b.length / 3.0 + 0.25 * wood * r2;
   out.inertia = {across, across, 0.5 * wood * r2, 0.0, 0.0, 0.0};
@@ -44,6 +44,10 @@ Composite onParent(const Branch& b, const Composite& body) {
 }
 
 }  // namespace
+
+double addedMass(const Species& species) {
+  return (species.fluid_density - AIR_DENSITY) / species.density;
+}
 
 Composite Composite::movedBy(const Quat& turn, const Vec3& o) const {
   Composite out;
@@ -74,6 +78,7 @@ void Composite::add(const Composite& other) {
 Wood woodOf(const Skeleton& skeleton, const Species& species, Material material) {
   const std::size_t n = skeleton.branches.size();
   Wood out;
+  out.added_mass = addedMass(species);
   out.own.resize(n);
   out.stiffness.resize(n);
   out.damping.resize(n);

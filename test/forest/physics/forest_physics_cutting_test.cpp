@@ -30,6 +30,21 @@ std::vector<int> carriedBy(const Skeleton& skeleton, int branch) {
   return out;
 }
 
+// The mass that is told of a piece is its own, without the fluid that moves with it.
+TEST(Cutting, PiecesWeighTheSameInWater) {
+  double mass[2];
+  for (const bool wet : {false, true}) {
+    Layout layout = PhysicsRig::makeLayout(1, "oak");
+    if (wet) layout.species[0].fluid_density = 1025.0;
+    PhysicsRig rig(layout);
+    rig.forest.cut({0, rig.tree.skeleton.depth_end[0]});
+    rig.advance();
+    ASSERT_EQ(rig.forest.breaks().size(), 1u);
+    mass[wet] = rig.forest.breaks().front().mass;
+  }
+  EXPECT_NEAR(mass[1], mass[0], 1e-12 * mass[0]);
+}
+
 // Cut a limb of an oak: with it goes what it carries, for whatever looks at the tree.
 TEST(Cutting, TakesOffTheBranchWithAllThatItCarries) {
   PhysicsRig rig;

@@ -124,6 +124,25 @@ TEST(Species, HashSeesAStrengthAboveZero) {
   EXPECT_NE(faultOf("{name: a, strength: .nan}").find("strength"), std::string::npos);
 }
 
+// Trees in air keep the hash that they had before there were other fluids.
+TEST(Species, HashSeesAFluidOtherThanAir) {
+  Species species = shippedSpecies("oak");
+  EXPECT_EQ(species.fluid_density, AIR_DENSITY);
+  const std::uint64_t before = hash(species);
+  species.fluid_density = 1025.0;
+  EXPECT_NE(hash(species), before);
+  EXPECT_EQ(parseSpecies(writeSpecies(species), "copy").fluid_density, 1025.0);
+  for (const char* value : {"0", "-1", "0.09", "2001"}) {
+    const std::string error = faultOf(std::string("{name: a, fluid_density: ") + value + "}");
+    EXPECT_NE(error.find(std::string("fluid_density = ") + value +
+                         " kg/m^3 is outside 0.1 to 2000 kg/m^3"),
+              std::string::npos)
+        << error;
+  }
+  EXPECT_NE(faultOf("{name: a, fluid_density: .nan}").find("fluid_density"), std::string::npos);
+  EXPECT_NE(faultOf("{name: a, fluid_density: water}").find("fluid_density"), std::string::npos);
+}
+
 class Stage : public testing::TestWithParam<std::string> {};
 
 // Means of eight trees, because numbers of limbs are rounded at random.

@@ -8,8 +8,6 @@
 
 namespace vegetation_sim::forest {
 
-/// Density of air [kg/m^3].
-constexpr double AIR_DENSITY = 1.225;
 /// A joint bends as requested up to the knee, then less and less, and never beyond the limit (E16)
 /// [rad].
 constexpr double BEND_KNEE = 0.6, BEND_LIMIT = 1.2;
@@ -27,7 +25,8 @@ struct JointAngles {
 };
 
 /// Returns the drag per air speed of a branch with its own leaves, for the linear law F = c v
-/// [kg/s]. c = rho Cd A v_ref / 2, so that both laws have the same force at the reference speed.
+/// [kg/s]. c = rho Cd A v_ref / 2 with the density rho of the fluid, so that both laws have the
+/// same force at the reference speed.
 double dragPerSpeed(const Branch& branch, const Species& species);
 
 /// Returns the bending stiffness of the joint of a branch: E pi r^4 / (4 l) [N m/rad].

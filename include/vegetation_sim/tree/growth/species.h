@@ -16,6 +16,9 @@ constexpr int MAX_DEPTHS = 6;
 /// Maximum number of joints of a tree; growth stops there.
 constexpr int MAX_BRANCHES = 16384;
 
+/// Density of air [kg/m^3].
+constexpr double AIR_DENSITY = 1.225;
+
 enum class LeafShape : int { BROAD = 0, NEEDLE = 1, SMALL = 2, LONG = 3 };
 
 /// Properties of all trees of a species: growth rules, wood, leaves. One file in config/species
@@ -47,6 +50,7 @@ struct Species {
   Vec3 twig_colour{Vec3(0.3, 0.24, 0.15)};
   double turn{PI};       ///< largest turn of the trunk off the yaw of the tree [rad]
   double strength{0.0};  ///< bending stress at which physical branches break; 0: never [Pa]
+  double fluid_density{AIR_DENSITY};        ///< of what flows around the tree [kg/m^3]
   std::vector<LimbRule> limbs{LimbRule{}};  ///< by recursion depth, trunk first
 
   int depths() const { return static_cast<int>(limbs.size()); }
@@ -62,6 +66,7 @@ void describe(FieldVisitor& visitor, Species& species);
 /// Visits the fields that are not part of describe(), of which a usual species has the default.
 void describeHabit(FieldVisitor& visitor, Species& species);
 void describeStrength(FieldVisitor& visitor, Species& species);
+void describeFluid(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
 
 /// Returns the largest angle [rad] between a limb and its parent for their ratio of diameters; it
