@@ -96,6 +96,41 @@ inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
   return out;
 }
 
+/// Wandering walkers in a square of ten by ten rooms; each wall between two rooms has a door of 2
+/// m.
+inline Crowd houseOfRooms(int walkers, double side, std::uint64_t seed) {
+  constexpr int ROOMS = 10;
+  constexpr double DOOR = 2.0, THICK = 0.2;
+  Crowd out(seed, CrowdSettings(), {0, side, 0, side}, flatGround());
+  const Random random(seed);
+  std::uint64_t draw = 0;
+  const double room = side / ROOMS;
+  std::vector<Obstacle> walls;
+  for (int line = 0; line <= ROOMS; ++line) {
+    const double x = room * line;
+    for (int i = 0; i < ROOMS; ++i) {
+      const double y = room * i, end = y + room;
+      const bool outside = line == 0 || line == ROOMS;
+      const double door = random.uniform(draw++, y + 1.0, end - DOOR - 1.0);
+      for (const auto& [from, to] :
+           {std::pair(y, outside ? end : door), std::pair(outside ? end : door + DOOR, end)}) {
+        if (from == to) continue;
+        walls.push_back(wallObstacle({x, from}, {x, to}, THICK));
+        walls.push_back(wallObstacle({from, x}, {to, x}, THICK));
+      }
+    }
+  }
+  out.setObstacles(std::move(walls));
+  for (int i = 0; i < walkers; ++i) {
+    Spawn spawn;
+    spawn.position.x = random.uniform(draw++, 0.5, side - 0.5);
+    spawn.position.y = random.uniform(draw++, 0.5, side - 0.5);
+    spawn.heading = random.uniform(draw++, -PI, PI);
+    out.spawn(spawn);
+  }
+  return out;
+}
+
 /// Steps for `seconds` and calls `look` with the crowd after each step.
 template <class Look>
 void run(Crowd& crowd, double seconds, double dt, Look look) {

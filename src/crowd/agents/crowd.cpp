@@ -109,6 +109,7 @@ Crowd::Crowd(std::uint64_t seed, const CrowdSettings& settings, const Area& area
 void Crowd::setObstacles(std::vector<Obstacle> obstacles) {
   still_ = ObstacleGrid(std::move(obstacles), memory_.settings.sensor_range);
   ways_.setObstacles(still_, WIDEST, memory_.settings.field_cell);
+  memory_.ways.clear();
 }
 
 void Crowd::setSettings(const CrowdSettings& settings) {
@@ -223,11 +224,16 @@ void Crowd::clear() {
   memory_.next_id = 0;
   memory_.stamp = 0;
   memory_.begun = false;
+  memory_.ways.clear();
+  ways_.resume({});
 }
 
 void Crowd::restore(CrowdSnapshot memory) {
+  const std::vector<WayProgress> ways = std::move(memory.ways);
   memory_ = std::move(memory);
   setObstacles(still_.obstacles());
+  ways_.resume(ways);
+  memory_.ways = ways_.progress();
 }
 
 }  // namespace vegetation_sim::crowd

@@ -32,7 +32,9 @@ struct CrowdSnapshot {
   std::vector<Walker> walkers;          ///< by rising id
   std::map<std::string, Robot> robots;  ///< by id
   std::uint32_t next_id{0};
+  std::vector<WayProgress> ways;  ///< searches for ways around obstacles, the oldest first
 
+  /// Leaves out `ways`, which change nothing but what walkers do.
   std::uint64_t hash() const;
 };
 
@@ -90,12 +92,14 @@ class Crowd {
   const terrain::HeightMap& terrain() const { return *terrain_; }
   /// Returns the largest overlap of outlines [m]; 0: none. For tests and diagnostics.
   double deepestOverlap() const;
+  const Ways& ways() const { return ways_; }
 
  private:
   struct Tick;
   std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);
   void updateSurroundings();
+  void findAims();
   Wish wishOf(Walker& walker, const Point& front, std::size_t index) const;
   void stepOne(std::size_t index, const Tick& tick, Walker& walker) const;
   void keepSide(int taken, double dt, Walker& walker) const;
@@ -114,7 +118,8 @@ class Crowd {
   CrowdSnapshot memory_;
   WalkerGrid grid_;  ///< positions at the last tick
   std::vector<Obstacle> robots_;
-  std::vector<const FlowField*> fields_;  ///< field of each walker on a detour
+  std::vector<WayQuery> queries_;  ///< walkers on a detour
+  std::vector<Point> aims_;        ///< goal of each walker, or where its detour leads now
 };
 
 }  // namespace vegetation_sim::crowd

@@ -8,6 +8,7 @@ namespace vegetation_sim::crowd {
 namespace {
 
 constexpr std::size_t WALKER_BYTES = 218, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
+constexpr std::size_t WAY_BYTES = 12;
 constexpr std::size_t MOST_CORNERS = 4096;
 
 void archive(Archive& a, const char* name, Point& point) {
@@ -56,6 +57,12 @@ void archive(Archive& a, Robot& robot) {
   archive(a, "robot velocity", robot.velocity);
 }
 
+void archive(Archive& a, WayProgress& way) {
+  a.integer("way goal", way.goal);
+  a.integer("way origin", way.origin);
+  a.integer("way closed", way.closed);
+}
+
 void checkRead(const CrowdSnapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.walkers.size(); ++i) {
     const std::uint32_t id = snapshot.walkers[i].id;
@@ -85,6 +92,8 @@ void archive(Archive& a, CrowdSnapshot& snapshot) {
       [&a](std::string& id) { a.text("robot", id, LONGEST_NAME); },
       [&a](const std::string&, Robot& robot) { archive(a, robot); });
   a.integer("next id", snapshot.next_id);
+  a.list("ways", snapshot.ways, MOST_WALKERS, WAY_BYTES,
+         [&a](WayProgress& way) { archive(a, way); });
   if (a.reads()) checkRead(snapshot);
 }
 

@@ -60,13 +60,14 @@ void Crowd::advance(Nanoseconds stamp) {
   memory_.begun = true;
   if (dt == 0.0) return;
   updateSurroundings();
+  findAims();
   // Neighbours are processed one after the other, since they share data in the cache.
   const auto& spots = grid_.spots();
   forAll(spots.size(), [&](std::size_t i) {
     if (i + AHEAD < spots.size()) prefetch(memory_.walkers[spots[i + AHEAD].index]);
     stepOne(spots[i].index, tick, memory_.walkers[spots[i].index]);
   });
-  ways_.endTick();
+  memory_.ways = ways_.progress();
 }
 
 void Crowd::updateSurroundings() {
@@ -76,10 +77,29 @@ void Crowd::updateSurroundings() {
   double widest = 0.0;
   for (const Walker& w : walkers) widest = std::max(widest, w.radius);
   grid_.build(walkers, memory_.settings.sensor_range + 2.0 * widest);
-  fields_.assign(walkers.size(), nullptr);
-  if (ways_.raster().empty()) return;
-  for (std::size_t i = 0; i < walkers.size(); ++i)
-    if (walkers[i].detours && walkers[i].has_goal) fields_[i] = &ways_.fieldOf(walkers[i].goal);
+}
+
+void Crowd::findAims() {
+  const std::vector<Walker>& walkers = memory_.walkers;
+  const bool by_paper = memory_.settings.behaviour == Behaviour::PAPER;
+  std::vector<std::size_t> asking;
+  aims_.resize(walkers.size());
+  queries_.clear();
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    const Walker& w = walkers[i];
+    aims_[i] = w.goal;
+    if (by_paper || !w.detours || !w.has_goal || w.arrived) continue;
+    WayQuery query;
+    query.from = w.position;
+    query.goal = w.goal;
+    queries_.push_back(query);
+    asking.push_back(i);
+  }
+  forAll(queries_.size(), [this](std::size_t i) { ways_.look(queries_[i]); });
+  ways_.assign(queries_);
+  forAll(queries_.size(), [this](std::size_t i) { ways_.follow(queries_[i]); });
+  ways_.extend(queries_);
+  for (std::size_t i = 0; i < queries_.size(); ++i) aims_[asking[i]] = queries_[i].aim;
 }
 
 double Crowd::paceAt(const Walker& walker, const Point& direction) const {
@@ -123,10 +143,8 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
     out.speed *= paceAt(w, out.direction);
     return out;
   }
-  Point aim = w.goal;
-  if (behaviour == Behaviour::GOAL && fields_[index])
-    fields_[index]->aimFrom(ways_.raster(), w.position, w.goal, aim);
-  const Point to = aim - w.position;
+  // Who has just chosen a goal makes no detour, and its aim is that of the last goal.
+  const Point to = (w.detours ? aims_[index] : w.goal) - w.position;
   const double way = length(to);
   if (way > 0.0) out.direction = (1.0 / way) * to;
   const double left = length(w.goal - w.position);

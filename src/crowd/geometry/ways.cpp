@@ -3,216 +3,125 @@
 #include "crowd/geometry/ways.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr std::uint32_t STRAIGHT = 5, DIAGONAL = 7;           // cost in fifths of a cell
-constexpr int LOOK_AHEAD = 32;                                // limit in cells along the way
-constexpr std::size_t MOST_FIELDS = 32;                       // cached beyond those in use
-constexpr std::uint64_t IN_USE = 119;                         // ticks
-constexpr std::size_t MOST_WAY_CELLS = std::size_t{1} << 25;  // cells of all fields, 128 MB
-
-struct Step {
-  int column, row;
-  std::uint32_t cost;
-};
-constexpr Step STEPS[8] = {{1, 0, STRAIGHT},   {0, 1, STRAIGHT}, {-1, 0, STRAIGHT},
-                           {0, -1, STRAIGHT},  {1, 1, DIAGONAL}, {-1, 1, DIAGONAL},
-                           {-1, -1, DIAGONAL}, {1, -1, DIAGONAL}};
-
-// Calls `each(cell, cost)` for the free neighbours; diagonal steps do not cut blocked corners.
-template <class Each>
-void visitNeighbours(const PlanRaster& raster, std::uint32_t cell, Each each) {
-  const int width = raster.columns();
-  const int column = static_cast<int>(cell) % width, row = static_cast<int>(cell) / width;
-  for (const Step& step : STEPS) {
-    const int c = column + step.column, r = row + step.row;
-    if (c < 0 || r < 0 || c >= width || r >= raster.rows()) continue;
-    const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * width + x); };
-    if (raster.isBlocked(at(c, r))) continue;
-    if (step.cost == DIAGONAL && (raster.isBlocked(at(c, row)) || raster.isBlocked(at(column, r))))
-      continue;
-    each(at(c, r), step.cost);
-  }
-}
-
-constexpr double MOST_RASTER_CELLS = 524288.0;
-constexpr double RIM = 3.0;     ///< margin around all obstacles [m]
-constexpr double LARGE = 0.9;   ///< least reach of an obstacle that is worth a detour [m]
-constexpr double SEARCH = 2.0;  ///< radius of the search for a free cell [m]
+constexpr std::size_t CHUNK = 64;  // cells between two looks whether a way is known
+// A chunk takes less memory than this [bytes], the table of a search with the longest raster
+// included.
+constexpr std::size_t CHUNK_BYTES = std::size_t{1} << 20;
+static_assert(CHUNK * WaySearch::MOST_BYTES_A_CELL + (std::size_t{1} << 18) <= CHUNK_BYTES);
+// Searches that are resumed one after the other may need more for a while than they did [bytes].
+constexpr std::size_t MOST_RESUMED_BYTES = std::size_t{1} << 27;
 
 }  // namespace
 
-PlanRaster::PlanRaster(const ObstacleGrid& still, double clearance, double cell) : cell_(cell) {
-  if (still.obstacles().empty()) return;
-  Extent all = extentOf(still.obstacles().front());
-  for (const Obstacle& o : still.obstacles()) {
-    const Extent e = extentOf(o);
-    all.low = {std::min(all.low.x, e.low.x), std::min(all.low.y, e.low.y)};
-    all.high = {std::max(all.high.x, e.high.x), std::max(all.high.y, e.high.y)};
-  }
-  origin_ = {all.low.x - RIM, all.low.y - RIM};
-  const Point size{all.high.x + RIM - origin_.x, all.high.y + RIM - origin_.y};
-  while ((size.x / cell_ + 1.0) * (size.y / cell_ + 1.0) > MOST_RASTER_CELLS) cell_ *= 1.25;
-  columns_ = static_cast<int>(size.x / cell_) + 1;
-  rows_ = static_cast<int>(size.y / cell_) + 1;
-  blocked_.assign(static_cast<std::size_t>(columns_) * rows_, 0);
-  for (const Obstacle& o : still.obstacles()) block(o, clearance);
-}
-
-void PlanRaster::block(const Obstacle& obstacle, double clearance) {
-  const Extent e = extentOf(obstacle);
-  const std::uint8_t mark = obstacle.reach >= LARGE ? 2 : 1;
-  has_large_ = has_large_ || mark == 2;
-  const std::uint32_t first = cellAt({e.low.x - clearance, e.low.y - clearance});
-  const std::uint32_t last = cellAt({e.high.x + clearance, e.high.y + clearance});
-  const auto width = static_cast<std::uint32_t>(columns_);
-  for (std::uint32_t row = first / width; row <= last / width; ++row)
-    for (std::uint32_t column = first % width; column <= last % width; ++column) {
-      std::uint8_t& cell = blocked_[row * width + column];
-      if (cell >= mark) continue;
-      if (separation(centreOf(row * width + column), clearance, obstacle, 0.0).overlapping)
-        cell = mark;
-    }
-}
-
-std::uint32_t PlanRaster::cellAt(const Point& place) const {
-  const double c = std::min(std::max((place.x - origin_.x) / cell_, 0.0), columns_ - 1.0);
-  const double r = std::min(std::max((place.y - origin_.y) / cell_, 0.0), rows_ - 1.0);
-  return static_cast<std::uint32_t>(r) * static_cast<std::uint32_t>(columns_) +
-         static_cast<std::uint32_t>(c);
-}
-
-Point PlanRaster::centreOf(std::uint32_t cell) const {
-  const auto width = static_cast<std::uint32_t>(columns_);
-  const std::uint32_t column = cell % width, row = cell / width;
-  return {origin_.x + (column + 0.5) * cell_, origin_.y + (row + 0.5) * cell_};
-}
-
-// Samples every half cell; the samples can only miss the corner of a cell.
-bool PlanRaster::isClear(const Point& from, const Point& to, bool large_only) const {
-  if (empty()) return true;
-  const Point span = to - from;
-  const double size = length(span);
-  const int count = static_cast<int>(std::min(4096.0, size / (0.5 * cell_))) + 1;
-  const std::uint8_t limit = large_only ? 2 : 1;
-  for (int i = 1; i <= count; ++i) {
-    const Point p = from + (static_cast<double>(i) / count) * span;
-    const double c = (p.x - origin_.x) / cell_, r = (p.y - origin_.y) / cell_;
-    if (c < 0.0 || r < 0.0 || c >= columns_ || r >= rows_) continue;
-    if (blocked_[static_cast<std::size_t>(r) * columns_ + static_cast<std::size_t>(c)] >= limit)
-      return false;
-  }
-  return true;
-}
-
-Point PlanRaster::nearestFree(const Point& place) const {
-  if (empty()) return place;
-  const std::uint32_t own = cellAt(place);
-  if (!isBlocked(own)) return place;
-  const auto width = static_cast<std::uint32_t>(columns_);
-  const int c0 = static_cast<int>(own % width), r0 = static_cast<int>(own / width);
-  const int reach = static_cast<int>(SEARCH / cell_) + 1;
-  Point out = place;
-  double best = std::numeric_limits<double>::infinity();
-  for (int r = std::max(0, r0 - reach); r <= std::min(rows_ - 1, r0 + reach); ++r)
-    for (int c = std::max(0, c0 - reach); c <= std::min(columns_ - 1, c0 + reach); ++c) {
-      const auto cell = static_cast<std::uint32_t>(r) * width + static_cast<std::uint32_t>(c);
-      const Point away = centreOf(cell) - place;
-      if (isBlocked(cell) || dot(away, away) >= best) continue;
-      best = dot(away, away);
-      out = centreOf(cell);
-    }
-  return out;
-}
-
-// Costs are small integers, so that waiting cells are sorted into eight buckets in turn.
-FlowField::FlowField(const PlanRaster& raster, std::uint32_t cell) {
-  length_.assign(static_cast<std::size_t>(raster.columns()) * raster.rows(), FAR);
-  constexpr std::uint32_t BUCKETS = DIAGONAL + 1;
-  std::vector<std::uint32_t> buckets[BUCKETS];
-  length_[cell] = 0;
-  buckets[0].push_back(cell);
-  std::size_t waiting = 1;
-  std::vector<std::uint32_t> now;
-  for (std::uint32_t length = 0; waiting > 0; ++length) {
-    now.swap(buckets[length % BUCKETS]);
-    waiting -= now.size();
-    for (const std::uint32_t at : now) {
-      if (length_[at] != length) continue;  // a shorter way was found since
-      visitNeighbours(raster, at, [&](std::uint32_t next, std::uint32_t cost) {
-        if (length + cost >= length_[next]) return;
-        length_[next] = length + cost;
-        buckets[(length + cost) % BUCKETS].push_back(next);
-        ++waiting;
-      });
-    }
-    now.clear();
-  }
-}
-
-std::uint32_t FlowField::next(const PlanRaster& raster, std::uint32_t cell) const {
-  std::uint32_t out = cell;
-  visitNeighbours(raster, cell, [&](std::uint32_t at, std::uint32_t) {
-    if (length_[at] < length_[out]) out = at;
-  });
-  return out;
-}
-
-bool FlowField::isReachable(const PlanRaster& raster, const Point& from) const {
-  return length_[raster.cellAt(raster.nearestFree(from))] != FAR;
-}
-
-bool FlowField::aimFrom(const PlanRaster& raster, const Point& from, const Point& goal,
-                        Point& aim) const {
-  aim = goal;
-  if (raster.isClear(from, goal, false)) return true;
-  const Point start = raster.nearestFree(from);
-  std::uint32_t cell = raster.cellAt(start);
-  if (length_[cell] == FAR) return false;
-  std::uint32_t path[LOOK_AHEAD];
-  for (std::uint32_t& at : path) at = cell = next(raster, cell);
-  for (int i = LOOK_AHEAD - 1; i > 0; i = i * 2 / 3)
-    if (raster.isClear(start, raster.centreOf(path[i]), false)) {
-      aim = raster.centreOf(path[i]);
-      return true;
-    }
-  aim = raster.centreOf(path[0]);
-  return true;
-}
-
 void Ways::setObstacles(const ObstacleGrid& still, double clearance, double cell) {
   raster_ = PlanRaster(still, clearance, cell);
-  fields_.clear();
+  resume({});
 }
 
-const FlowField& Ways::fieldOf(const Point& goal) {
-  const std::uint32_t cell = freeCell(goal);
-  Kept& kept = fields_[cell];
-  if (!kept.field) kept.field = std::make_unique<FlowField>(raster_, cell);
-  kept.asked = tick_;
-  return *kept.field;
+void Ways::look(WayQuery& query) const {
+  query.aim = query.goal;
+  query.is_known = true;
+  query.shared = nullptr;
+  if (raster_.empty()) return;
+  query.start = raster_.nearestFree(query.from);
+  query.goal_cell = freeCell(query.goal);
+  query.is_known = raster_.isClear(query.from, query.goal, false) ||
+                   !raster_.areConnected(raster_.cellAt(query.start), query.goal_cell);
 }
 
-bool Ways::isReachable(const Point& from, const Point& goal) const {
-  const std::uint32_t cell = freeCell(goal);
-  const auto found = fields_.find(cell);
-  if (found != fields_.end()) return found->second.field->isReachable(raster_, from);
-  return FlowField(raster_, cell).isReachable(raster_, from);
+// A search is kept while one of its walkers happens to see the goal.
+void Ways::assign(std::vector<WayQuery>& queries) {
+  closed_ = 0;
+  for (const auto& shared : searches_) shared->is_asked = false;
+  for (WayQuery& query : queries) {
+    const auto found = by_goal_.find(query.goal_cell);
+    if (found != by_goal_.end())
+      query.shared = found->second;
+    else if (!query.is_known)
+      query.shared = add(query.goal_cell, raster_.cellAt(query.start));
+    if (query.shared) query.shared->is_asked = true;
+  }
+  dropUnasked();
 }
 
-void Ways::endTick() {
-  ++tick_;
-  while (fields_.size() > MOST_FIELDS) {
-    auto oldest = fields_.begin();
-    for (auto i = fields_.begin(); i != fields_.end(); ++i)
-      if (i->second.asked < oldest->second.asked) oldest = i;
-    const std::size_t cells = static_cast<std::size_t>(raster_.columns()) * raster_.rows();
-    const std::uint64_t kept = fields_.size() * cells > MOST_WAY_CELLS ? 1 : IN_USE;
-    if (oldest->second.asked + kept >= tick_) return;
-    fields_.erase(oldest);
+void Ways::follow(WayQuery& query) const {
+  if (!query.is_known && query.shared)
+    query.is_known = query.shared->search.aimFrom(raster_, query.start, query.aim);
+}
+
+void Ways::extend(std::vector<WayQuery>& queries) {
+  std::vector<WayQuery*> waiting;
+  for (WayQuery& query : queries)
+    if (!query.is_known && query.shared) waiting.push_back(&query);
+  std::stable_sort(waiting.begin(), waiting.end(), [](const WayQuery* a, const WayQuery* b) {
+    return a->shared->age < b->shared->age;
+  });
+  for (WayQuery* query : waiting) {
+    WaySearch& search = query->shared->search;
+    const std::uint32_t cell = raster_.cellAt(query->start);
+    while (closed_ < MOST_CELLS && bytes_ + CHUNK_BYTES <= most_bytes_ &&
+           !search.isKnown(raster_, cell))
+      closed_ += expand(search, std::min(CHUNK, MOST_CELLS - closed_));
+    search.shrink();
+    follow(*query);
+  }
+}
+
+SharedSearch* Ways::add(std::uint32_t goal, std::uint32_t origin) {
+  if (bytes_ + CHUNK_BYTES > most_bytes_) return nullptr;
+  searches_.push_back(std::make_unique<SharedSearch>(
+      SharedSearch{WaySearch(goal, origin), next_age_++, /*is_asked=*/true}));
+  SharedSearch* out = searches_.back().get();
+  by_goal_[goal] = out;
+  bytes_ += out->search.bytes();
+  return out;
+}
+
+std::size_t Ways::expand(WaySearch& search, std::size_t count) {
+  bytes_ -= search.bytes();
+  const std::size_t out = search.expand(raster_, count);
+  bytes_ += search.bytes();
+  return out;
+}
+
+void Ways::dropUnasked() {
+  for (const auto& shared : searches_) {
+    if (shared->is_asked) continue;
+    bytes_ -= shared->search.bytes();
+    by_goal_.erase(shared->search.progress().goal);
+  }
+  searches_.erase(std::remove_if(searches_.begin(), searches_.end(),
+                                 [](const auto& shared) { return !shared->is_asked; }),
+                  searches_.end());
+}
+
+std::vector<WayProgress> Ways::progress() const {
+  std::vector<WayProgress> out;
+  out.reserve(searches_.size());
+  for (const auto& shared : searches_) out.push_back(shared->search.progress());
+  return out;
+}
+
+void Ways::resume(const std::vector<WayProgress>& progress) {
+  searches_.clear();
+  by_goal_.clear();
+  bytes_ = closed_ = 0;
+  const std::size_t cells = static_cast<std::size_t>(raster_.columns()) * raster_.rows();
+  for (const WayProgress& saved : progress) {
+    if (saved.goal >= cells || saved.origin >= cells || by_goal_.count(saved.goal)) continue;
+    SharedSearch* shared = add(saved.goal, saved.origin);
+    if (!shared) return;
+    std::size_t left = saved.closed;
+    while (left > 0 && bytes_ <= MOST_RESUMED_BYTES) {
+      const std::size_t closed = expand(shared->search, std::min(CHUNK, left));
+      left = closed > 0 ? left - closed : 0;
+    }
+    shared->search.shrink();
   }
 }
 

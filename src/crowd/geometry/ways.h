@@ -7,88 +7,79 @@
 #include <memory>
 #include <vector>
 
-#include "crowd/geometry/obstacle_grid.h"
+#include "crowd/geometry/way_search.h"
 
 namespace vegetation_sim::crowd {
 
-/// Cells of the plan that static obstacles block for a walker's centre.
-class PlanRaster {
- public:
-  PlanRaster() = default;
-  /// @param clearance kept from every outline [m]. @param cell wanted edge [m]; increased if there
-  /// would be more than half a million cells.
-  PlanRaster(const ObstacleGrid& still, double clearance, double cell);
-
-  bool empty() const { return blocked_.empty(); }
-  /// Returns whether an obstacle is large enough for a detour.
-  bool hasLarge() const { return has_large_; }
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  double cell() const { return cell_; }
-  /// Returns the cell, or the nearest one for a place outside.
-  std::uint32_t cellAt(const Point& place) const;
-  Point centreOf(std::uint32_t cell) const;
-  bool isBlocked(std::uint32_t cell) const { return blocked_[cell] != 0; }
-  /// Returns whether the straight line crosses no blocked cell, or none that a large obstacle
-  /// blocks.
-  bool isClear(const Point& from, const Point& to, bool large_only) const;
-  /// Returns the place if it is free, else the centre of the nearest free cell within 2 m, else the
-  /// place.
-  Point nearestFree(const Point& place) const;
-
- private:
-  void block(const Obstacle& obstacle, double clearance);
-
-  Point origin_{};
-  double cell_{1.0};
-  int columns_{0}, rows_{0};
-  bool has_large_{false};
-  std::vector<std::uint8_t> blocked_;  ///< 0 free, 1 a small obstacle, 2 a large one
+/// A search and who needs it.
+struct SharedSearch {
+  WaySearch search;
+  std::uint64_t age{0};  ///< rises from search to search
+  bool is_asked{false};  ///< in this tick
 };
 
-/// Lengths of the shortest ways from all cells to one free cell over eight neighbours (Dijkstra).
-/// All goals in that cell share the field.
-class FlowField {
- public:
-  FlowField(const PlanRaster& raster, std::uint32_t cell);
-  /// Finds the farthest visible place on the way to a goal in the cell, or the goal itself if it is
-  /// visible. @return false if there is no way.
-  bool aimFrom(const PlanRaster& raster, const Point& from, const Point& goal, Point& aim) const;
-  bool isReachable(const PlanRaster& raster, const Point& from) const;
-
- private:
-  static constexpr std::uint32_t FAR = 0xFFFFFFFFU;
-  std::uint32_t next(const PlanRaster& raster, std::uint32_t cell) const;
-
-  std::vector<std::uint32_t> length_;  ///< in fifths of a cell
+/// A walker's question for its way in a tick.
+struct WayQuery {
+  Point from{}, goal{};
+  /// Where to head now: the goal itself if it is visible or out of reach, or while its search
+  /// waits.
+  Point aim{};
+  bool is_known{false};
+  Point start{};               ///< nearest free place
+  std::uint32_t goal_cell{0};  ///< the goal's cell, or the nearest free one
+  SharedSearch* shared{nullptr};
 };
 
-/// Ways around static obstacles, computed on demand. They depend only on obstacles and goal, so
-/// caching changes only the cost.
+/// Ways around static obstacles. All searches together close a bounded number of cells in a tick,
+/// the oldest search first, and take a bounded memory: whoever waits for its search has the goal as
+/// aim. Goals in one cell share a search. What queries get depends on obstacles, progress and
+/// queries, not on threads or speed.
 class Ways {
  public:
+  /// Limits of the cells that are closed in a tick and of the memory of all searches [bytes].
+  static constexpr std::size_t MOST_CELLS = 65536, MOST_BYTES = 120'000'000;
+
+  explicit Ways(std::size_t most_bytes = MOST_BYTES) : most_bytes_(most_bytes) {}
   void setObstacles(const ObstacleGrid& still, double clearance, double cell);
   const PlanRaster& raster() const { return raster_; }
-  /// Returns the field of a goal, which is computed if necessary. Not thread-safe.
-  const FlowField& fieldOf(const Point& goal);
-  /// Does not cache the field.
-  bool isReachable(const Point& from, const Point& goal) const;
-  /// Frees fields that were not used for some ticks, and earlier if they take too much memory.
-  void endTick();
-  std::size_t count() const { return fields_.size(); }
-
- private:
-  struct Kept {
-    std::unique_ptr<FlowField> field;
-    std::uint64_t asked{0};
-  };
-  std::uint32_t freeCell(const Point& goal) const {
-    return raster_.cellAt(raster_.nearestFree(goal));
+  bool isReachable(const Point& from, const Point& goal) const {
+    return raster_.areConnected(freeCell(from), freeCell(goal));
   }
 
+  // A tick calls the following for all its queries, one after the other. The const functions may
+  // run for several queries at once.
+  /// Finds the cells of a query, and its aim if it sees its goal or cannot reach it.
+  void look(WayQuery& query) const;
+  /// Gives each query the search of its goal, and drops searches without a query.
+  void assign(std::vector<WayQuery>& queries);
+  /// Finds the aim if it follows from what has been searched.
+  void follow(WayQuery& query) const;
+  /// Searches on for the queries without aim.
+  void extend(std::vector<WayQuery>& queries);
+
+  /// Returns the progress of all searches, the oldest first.
+  std::vector<WayProgress> progress() const;
+  /// Replaces the searches by those that had this progress with the same obstacles. Leaves out what
+  /// does not fit to the obstacles or into the memory.
+  void resume(const std::vector<WayProgress>& progress);
+  std::size_t count() const { return searches_.size(); }
+  std::size_t bytes() const { return bytes_; }
+  /// Returns the number of cells closed in the last tick.
+  std::size_t closed() const { return closed_; }
+
+ private:
+  std::uint32_t freeCell(const Point& place) const {
+    return raster_.cellAt(raster_.nearestFree(place));
+  }
+  SharedSearch* add(std::uint32_t goal, std::uint32_t origin);
+  std::size_t expand(WaySearch& search, std::size_t count);
+  void dropUnasked();
+
   PlanRaster raster_;
-  std::map<std::uint32_t, Kept> fields_;  ///< by the goal's cell, or the nearest free one
-  std::uint64_t tick_{0};
+  std::vector<std::unique_ptr<SharedSearch>> searches_;  ///< by rising age
+  std::map<std::uint32_t, SharedSearch*> by_goal_;
+  std::uint64_t next_age_{0};
+  std::size_t most_bytes_, bytes_{0}, closed_{0};
 };
 
 }  // namespace vegetation_sim::crowd

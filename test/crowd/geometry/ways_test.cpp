@@ -4,108 +4,153 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/crowd/crowd_scenes.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::crowd {
 namespace {
 
-// A U that is open to the west.
-ObstacleGrid pocket() {
-  return ObstacleGrid({wallObstacle({2, -3}, {2, 3}, 0.2), wallObstacle({-2, -3}, {2, -3}, 0.2),
-                       wallObstacle({-2, 3}, {2, 3}, 0.2)},
-                      3.0);
+// A wall between x = 10 and x = 12, and a raster of `size` m around it.
+Ways waysAroundAWall(double size, std::size_t most_bytes = Ways::MOST_BYTES) {
+  Ways out(most_bytes);
+  out.setObstacles(ObstacleGrid({wallObstacle({10, 0}, {12, 40}, 0.2), discObstacle({0, 0}, 0.1),
+                                 discObstacle({size, size}, 0.1)},
+                                3.0),
+                   0.3, 0.25);
+  return out;
 }
 
-TEST(Ways, LeadOutOfAPocket) {
-  const ObstacleGrid still = pocket();
-  const PlanRaster raster(still, 0.3, 0.25);
-  const FlowField field(raster, raster.cellAt({8, 0}));
-  Point at{1.0, 0.0}, aim;
-  double way = 0.0;
-  for (int i = 0; i < 400 && length(Point{8, 0} - at) > 0.3; ++i) {
-    ASSERT_TRUE(field.aimFrom(raster, at, {8, 0}, aim));
-    const Point to = aim - at;
-    const Point next = at + (std::min(0.1, length(to)) / length(to)) * to;
-    for (const Obstacle& wall : still.obstacles())
-      ASSERT_FALSE(separation(next, 0.25, wall).overlapping) << next.x << " " << next.y;
-    at = next;
-    way += 0.1;
-  }
-  EXPECT_LT(length(Point{8, 0} - at), 0.31);
-  // Out to the mouth's corner and back along the arm: 3.3 + 0.5 + 4.2 + 6.5 m, and the steps'
-  // turns.
-  EXPECT_LT(way, 17.0);
+WayQuery ask(const Point& from, const Point& goal) {
+  WayQuery out;
+  out.from = from;
+  out.goal = goal;
+  return out;
+}
+
+void tick(Ways& ways, std::vector<WayQuery>& queries) {
+  for (WayQuery& query : queries) ways.look(query);
+  ways.assign(queries);
+  for (WayQuery& query : queries) ways.follow(query);
+  ways.extend(queries);
+}
+
+Point aim(Ways& ways, const Point& from, const Point& goal) {
+  std::vector<WayQuery> queries{ask(from, goal)};
+  tick(ways, queries);
+  return queries[0].aim;
 }
 
 TEST(Ways, StraightWhereNothingIsBetween) {
-  const PlanRaster raster(pocket(), 0.3, 0.25);
-  const FlowField field(raster, raster.cellAt({8, 0}));
-  Point aim;
-  ASSERT_TRUE(field.aimFrom(raster, {3, 2}, {8, 0}, aim));
-  EXPECT_EQ(aim.x, 8.0);
-  EXPECT_EQ(aim.y, 0.0);
-}
-
-TEST(Ways, AClosedRoomHasNoWayOut) {
-  const ObstacleGrid still(room(-4, -4, 4, 4), 3.0);
-  const PlanRaster raster(still, 0.3, 0.25);
-  const FlowField field(raster, raster.cellAt({6, 0}));
-  Point aim;
-  EXPECT_FALSE(field.isReachable(raster, {0, 0}));
-  EXPECT_FALSE(field.aimFrom(raster, {0, 0}, {6, 0}, aim));
-  EXPECT_TRUE(field.isReachable(raster, {6, 3}));
+  Ways ways = waysAroundAWall(50.0);
+  EXPECT_EQ(aim(ways, {20, 2}, {30.0, 7.0}).y, 7.0);
+  EXPECT_EQ(ways.count(), 0u);
+  EXPECT_NE(aim(ways, {5, 20}, {30.0, 7.0}).y, 7.0);
+  EXPECT_EQ(ways.count(), 1u);
 }
 
 // N6: earlier queries change no result.
 TEST(Ways, GoalsInOneCellAreNotMixedUp) {
-  Ways ways;
-  ways.setObstacles(pocket(), 0.3, 0.25);
-  const Point goals[2] = {{8.01, 0.01}, {8.09, 0.11}};
+  Ways ways = waysAroundAWall(50.0);
+  const Point goals[2] = {{30.01, 7.01}, {30.06, 7.05}};
   ASSERT_EQ(ways.raster().cellAt(goals[0]), ways.raster().cellAt(goals[1]));
-  ASSERT_EQ(&ways.fieldOf(goals[0]), &ways.fieldOf(goals[1]));
-  for (const Point& goal : goals) {
-    Point aim;
-    ASSERT_TRUE(ways.fieldOf(goal).aimFrom(ways.raster(), {4, 0}, goal, aim));
-    EXPECT_EQ(aim.x, goal.x);
-    EXPECT_EQ(aim.y, goal.y);
+  std::vector<WayQuery> queries{ask({5, 20}, goals[0]), ask({5, 21}, goals[1]),
+                                ask({20, 5}, goals[1])};
+  tick(ways, queries);
+  EXPECT_EQ(ways.count(), 1u);
+  EXPECT_EQ(queries[0].shared, queries[1].shared);
+  EXPECT_EQ(queries[2].aim.x, goals[1].x);
+  EXPECT_EQ(queries[2].aim.y, goals[1].y);
+}
+
+TEST(Ways, AreDroppedWithTheirLastWalker) {
+  Ways ways = waysAroundAWall(50.0);
+  std::vector<WayQuery> queries{ask({5, 20}, {30, 7}), ask({5, 20}, {30, 9})};
+  tick(ways, queries);
+  EXPECT_EQ(ways.count(), 2u);
+  const std::size_t both = ways.bytes();
+  queries.pop_back();
+  tick(ways, queries);
+  EXPECT_EQ(ways.count(), 1u);
+  EXPECT_LT(ways.bytes(), both);
+  queries[0].from = {20.0, 7.0};  // sees the goal
+  tick(ways, queries);
+  EXPECT_EQ(ways.count(), 1u);
+  queries.clear();
+  tick(ways, queries);
+  EXPECT_EQ(ways.count(), 0u);
+  EXPECT_EQ(ways.bytes(), 0u);
+}
+
+TEST(Ways, TheOldestSearchComesFirstAndTheOthersWait) {
+  Ways ways = waysAroundAWall(80.0);
+  std::vector<WayQuery> queries;
+  for (int i = 0; i < 50; ++i) queries.push_back(ask({1.0 + 0.1 * i, 10.0}, {60.0, 1.0 + i}));
+  std::size_t known = 0;
+  for (int ticks = 1; known < queries.size(); ++ticks) {
+    ASSERT_LT(ticks, 100);
+    tick(ways, queries);
+    EXPECT_LE(ways.closed(), Ways::MOST_CELLS);
+    known = 0;
+    while (known < queries.size() && queries[known].is_known) ++known;
+    if (ticks == 1) {
+      EXPECT_EQ(ways.closed(), Ways::MOST_CELLS);
+      EXPECT_GT(known, 1u);
+      EXPECT_LT(known, 25u);
+    }
+    for (std::size_t i = known + 1; i < queries.size(); ++i) EXPECT_EQ(queries[i].aim.y, 1.0 + i);
   }
 }
 
-TEST(Ways, UnusedFieldsAreFreed) {
-  Ways ways;
-  ways.setObstacles(pocket(), 0.3, 0.25);
-  for (int i = 0; i < 200; ++i) {
-    ways.fieldOf({-4.9 + 0.25 * (i % 40), 4.0 + 0.25 * (i / 40)});
-    ways.endTick();
-  }
-  EXPECT_LE(ways.count(), 125U);
-  for (int i = 0; i < 200; ++i) ways.endTick();
-  EXPECT_LE(ways.count(), 32U);
+TEST(Ways, SearchesThatDoNotFitIntoTheMemoryWait) {
+  constexpr std::size_t MOST = 4'000'000;
+  Ways ways = waysAroundAWall(80.0, MOST);
+  std::vector<WayQuery> queries;
+  const Random random(4);
+  for (std::uint64_t i = 0; i < 300; ++i)
+    queries.push_back(
+        ask({random.uniform(3 * i, 0.0, 9.0), 20.0},
+            {random.uniform(3 * i + 1, 40.0, 80.0), random.uniform(3 * i + 2, 0.0, 80.0)}));
+  const auto settle = [&] {
+    do {
+      tick(ways, queries);
+      ASSERT_LE(ways.bytes(), MOST);
+    } while (ways.closed() > 0);
+  };
+  const auto countWaiting = [&] {
+    std::size_t out = 0;
+    for (const WayQuery& query : queries) out += !query.is_known;
+    return out;
+  };
+  settle();
+  EXPECT_GT(ways.bytes(), MOST / 2);
+  const std::size_t waiting = countWaiting();
+  EXPECT_GT(waiting, 50u);
+  EXPECT_LT(waiting, 250u);
+  queries.erase(queries.begin(), queries.begin() + 40);
+  settle();
+  EXPECT_LT(countWaiting(), waiting - 20) << "the memory of those that arrived is used again";
 }
 
-// 128 MB of them at the most, but for those that are in use now.
-TEST(Ways, FieldsOfLargeLandscapesGoSooner) {
-  Ways ways;
-  ways.setObstacles(ObstacleGrid({discObstacle({0, 0}, 1.0), discObstacle({900, 900}, 1.0)}, 3.0),
-                    0.3, 0.25);
-  for (int i = 0; i < 110; ++i) {
-    ways.fieldOf({5.0 + 8.0 * i, 40.0});
-    ways.endTick();
+// A search depends on its progress alone.
+TEST(Ways, ResumeWhereTheyWere) {
+  Ways ways = waysAroundAWall(150.0), other = waysAroundAWall(150.0);
+  std::vector<WayQuery> queries;
+  for (int i = 0; i < 60; ++i) queries.push_back(ask({1.0, 10.0 + 0.1 * i}, {100.0, 1.0 + i}));
+  tick(ways, queries);
+  std::vector<WayProgress> saved = ways.progress();
+  saved.push_back({0xFFFFFFFFu, 0, 5});  // outside of the raster
+  other.resume(saved);
+  EXPECT_EQ(other.bytes(), ways.bytes());
+  std::vector<WayQuery> same = queries;
+  for (int i = 0; i < 5; ++i) {
+    tick(ways, queries);
+    tick(other, same);
+    EXPECT_EQ(other.closed(), ways.closed());
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      ASSERT_EQ(same[k].is_known, queries[k].is_known);
+      ASSERT_EQ(same[k].aim.x, queries[k].aim.x);
+      ASSERT_EQ(same[k].aim.y, queries[k].aim.y);
+    }
   }
-  const auto cells = static_cast<std::size_t>(ways.raster().columns() * ways.raster().rows());
-  const std::size_t most = (std::size_t{1} << 25) / cells + 1;
-  ASSERT_LT(most, 100U);
-  EXPECT_LE(ways.count(), most);
-  EXPECT_GT(ways.count(), most / 2);
-  EXPECT_TRUE(ways.isReachable({3, 3}, {700, 700}));
-  EXPECT_LE(ways.count(), most);
-}
-
-TEST(Ways, LargeLandscapesGetLargerCells) {
-  const ObstacleGrid still({discObstacle({0, 0}, 1.0), discObstacle({5000, 5000}, 1.0)}, 3.0);
-  const PlanRaster raster(still, 0.3, 0.25);
-  EXPECT_LE(raster.columns() * raster.rows(), 524288);
-  EXPECT_GT(raster.cell(), 0.25);
 }
 
 }  // namespace
