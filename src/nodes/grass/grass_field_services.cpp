@@ -7,6 +7,7 @@
 #include "grass/lod/node_wind.h"
 #include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
+#include "nodes/grass/waiting_areas.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -199,6 +200,7 @@ bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response)
     event.kind = GrassEvent::CUT;
     event.header.stamp = effectOf(request.header.stamp, clock_);
     event.cut = toMsg(area);
+    checkRoomToWait(inputs_, event.cut);
     enqueue(std::move(event));
     return "takes effect at the next tick";
   });

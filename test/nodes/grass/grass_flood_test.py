@@ -3,17 +3,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """grass_field bounds and counts its inputs when it receives more treads than it accepts, and
 continues."""
+import math
 import unittest
 
 import rospy
 import rostest
+from geometry_msgs.msg import Point
+from std_msgs.msg import Header
 from std_srvs.srv import Trigger
+from vegetation_sim.msg import ErrorCode, GrassCut
 
 from forest_rig import TickClock, memory_of
-from grass_rig import FULL, RATE, Feet, Meadow, step
+from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
 
 MOST_WAITING = 10000  # limit of the inputs that may wait for a tick
 PER_SECOND = 10000
+MOST_OUTLINE = 1000  # points of the outline or the swath of a cut
+MOST_POINTS = 1000000  # of all cuts that wait
 
 
 class GrassFlood(unittest.TestCase):
@@ -73,6 +79,24 @@ class GrassFlood(unittest.TestCase):
         self.feet.send(step('late', 10.0, 10.0))
         self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(10.0, 10.0).tilt, FULL - 1e-3)
+
+    # The points of all requests to cut that wait are bounded, and told with the limit.
+    def test_4_points_of_cuts_that_wait_are_bounded(self):
+        ring = [Point(0.01 * math.cos(0.001 * math.tau * i), 0.01 * math.sin(0.001 * math.tau * i), 0)
+                for i in range(MOST_OUTLINE)]
+        header = Header(stamp=time_of(self.clock.tick + 5))
+        largest = dict(header=header, cut=GrassCut(outline=ring, swath=ring, height=0.05))
+        for _ in range(MOST_POINTS // (2 * MOST_OUTLINE)):
+            answer = self.grass.cut(**largest)
+            self.assertTrue(answer.success, answer.message)
+        one = GrassCut(outline=ring[:1], radius=0.1, height=0.05)
+        answer = self.grass.cut(header=header, cut=one)
+        self.assertEqual((answer.success, answer.error_code), (False, ErrorCode.NO_ROOM))
+        self.assertEqual(answer.message, 'points of cuts that wait = %d with the 1 of this request, '
+                         'allowed are 0 to %d' % (MOST_POINTS + 1, MOST_POINTS))
+        self.clock.run(6, self.grass)
+        answer = self.grass.cut(cut=one)
+        self.assertTrue(answer.success, answer.message)
 
 
 if __name__ == '__main__':

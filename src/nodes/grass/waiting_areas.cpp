@@ -1,0 +1,22 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/grass/waiting_areas.h"
+
+#include "nodes/cutters/cut_request.h"
+
+namespace vegetation_sim {
+namespace {
+
+std::size_t pointsOf(const GrassCut& cut) {
+  return cut.outline.size() + cut.swath.size();
+}
+
+}  // namespace
+
+void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut) {
+  std::size_t waiting = 0;
+  inputs.each([&](const GrassEvent& event) { waiting += pointsOf(event.cut); });
+  checkRoomToWait("points of cuts that wait", waiting, pointsOf(cut), MOST_WAITING_POINTS);
+}
+
+}  // namespace vegetation_sim
