@@ -179,6 +179,7 @@ Vec3 Foliage::freeDisplacement(const Vec3& anchor, const Vec3& point, double lim
 
 // A leaf turns with the fibre of its anchor, so that it keeps its shape.
 MovedLeaf Foliage::move(const Leaf& leaf, std::size_t plant) const {
+  if (leaf.lies) return {leaf.root, leaf.tip, leaf.side};
   MovedLeaf out = swayed(leaf, plant);
   const auto bent = bent_.find(plant);
   if (bent == bent_.end()) return out;

@@ -41,6 +41,7 @@ class Forest {
   std::uint64_t layoutHash() const { return layout_hash_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
   const ForestSnapshot& snapshot() const { return snapshot_; }
+  const TreeGrid& grid() const { return grid_; }
 
   void setWind(const wind::Field& wind) { snapshot_.wind = wind; }
   void setSensor(const Sensor& sensor) { snapshot_.sensors[sensor.id] = sensor; }

@@ -8,6 +8,7 @@
 #include "canopy/plants/crop.h"
 #include "canopy/plants/placing.h"
 #include "canopy/plants/stubble.h"
+#include "canopy/plants/swath.h"
 #include "core/math/growth_stage.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
@@ -249,7 +250,8 @@ PlantKind applyStage(const PlantKind& kind, double stage) {
 
 GrownPlant grow(const PlantKind& kind, const Plant& plant, double height) {
   GrownPlant out = growWhole(kind, plant);
-  if (height < UNCUT) cutOff(plant.position.z() + height, out);
+  if (height < UNCUT)
+    layDown(kind, plant, height, cutOff(plant.position.z() + height, out), out.leaves);
   return out;
 }
 

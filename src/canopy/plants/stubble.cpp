@@ -19,17 +19,20 @@ void shorten(double z, Leaf& leaf) {
 }
 
 // Pieces of a ribbon follow each other, each from the tip of the one before.
-void cutLeaves(double z, std::vector<Leaf>& leaves) {
+std::vector<FallenLeaf> cutLeaves(double z, std::vector<Leaf>& leaves) {
   std::vector<Leaf> kept;
+  std::vector<FallenLeaf> fallen;
   kept.reserve(leaves.size());
   bool is_ribbon_cut = false;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     Leaf leaf = leaves[i];
     const bool continues = i > 0 && !leaf.joined && leaf.root == leaves[i - 1].tip;
     is_ribbon_cut = is_ribbon_cut && continues;
-    if (is_ribbon_cut) continue;
-    is_ribbon_cut = leaf.root.z() >= z || leaf.anchor.z() > z;
-    if (is_ribbon_cut) continue;
+    is_ribbon_cut = is_ribbon_cut || leaf.root.z() >= z || leaf.anchor.z() > z;
+    if (is_ribbon_cut) {
+      if (!leaf.joined) fallen.push_back({leaf, i});
+      continue;
+    }
     if (leaf.tip.z() > z && !leaf.joined) {
       shorten(z, leaf);
       is_ribbon_cut = true;
@@ -37,12 +40,13 @@ void cutLeaves(double z, std::vector<Leaf>& leaves) {
     kept.push_back(leaf);
   }
   leaves = std::move(kept);
+  return fallen;
 }
 
 }  // namespace
 
-void cutOff(double z, GrownPlant& plant) {
-  cutLeaves(z, plant.leaves);
+std::vector<FallenLeaf> cutOff(double z, GrownPlant& plant) {
+  std::vector<FallenLeaf> fallen = cutLeaves(z, plant.leaves);
   cutLeaves(z, plant.rigid);
   std::vector<Stem>& stems = plant.stems;
   stems.erase(std::remove_if(stems.begin(), stems.end(),
@@ -51,6 +55,7 @@ void cutOff(double z, GrownPlant& plant) {
   for (Stem& stem : stems)
     if (stem.to.z() > z)
       stem.to = stem.from + shareBelow(z, stem.from, stem.to) * (stem.to - stem.from);
+  return fallen;
 }
 
 void checkStubble(const Stubble& stubble, std::size_t plants, const std::string& context) {

@@ -13,22 +13,30 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double TURNED_OR_MOVED = 1e-6;  // [m] or [rad]
-constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 58;
+constexpr std::size_t LONGEST_CUTTER_NAME = 4096, CUT_BYTES = 66;
 
-grass::CutterPose poseOf(const CutterFollower::LastCut& cut) {
-  return {{cut.position.x(), cut.position.y()}, {cut.heading.x(), cut.heading.y()}};
+// Returns the place on the map; none for a frame that points straight up.
+std::optional<grass::CutterPose> onMap(const Pose& pose) {
+  const Vec3 heading = rotate(pose.orientation, Vec3(1.0, 0.0, 0.0));
+  const double size = length(Vec3(heading.x(), heading.y(), 0.0));
+  if (!(size > TURNED_OR_MOVED)) return std::nullopt;
+  return grass::CutterPose{{pose.position.x(), pose.position.y()},
+                           {heading.x() / size, heading.y() / size}};
 }
 
 bool isJump(const CutterFollower::LastCut& from, const CutterFollower::LastCut& to,
             const grass::TreadSettings& settings) {
-  const double way = length(to.position - from.position);
+  const double way = length(to.pose.position - from.pose.position);
   const double seconds = secondsBetween(from.stamp, to.stamp);
   return !(way <= settings.longest_stroke && way <= settings.top_speed * seconds);
 }
 
-bool stands(const CutterFollower::LastCut& from, const CutterFollower::LastCut& to) {
-  return length(to.position - from.position) <= TURNED_OR_MOVED &&
-         length(to.heading - from.heading) <= TURNED_OR_MOVED;
+bool isSame(const Pose& a, const Pose& b) {
+  const auto differs = [&](const Vec3& axis) {
+    return length(rotate(a.orientation, axis) - rotate(b.orientation, axis)) > TURNED_OR_MOVED;
+  };
+  return length(a.position - b.position) <= TURNED_OR_MOVED && !differs(Vec3::UnitX()) &&
+         !differs(Vec3::UnitZ());
 }
 
 }  // namespace
@@ -58,13 +66,12 @@ void CutterFollower::archive(Archive& a, State& state) {
       "cutters", state.last, MOST_FOLLOWED, CUT_BYTES,
       [&a](std::string& name) { a.text("cutter", name, LONGEST_CUTTER_NAME); },
       [&a](const std::string&, LastCut& last) {
-        a.vector("position of a cutter", last.position);
-        a.vector("heading of a cutter", last.heading);
+        a.pose("pose of a cutter", last.pose);
         a.stamp("stamp of a cutter", last.stamp);
       });
 }
 
-// Returns no place for a frame that is missing, old or points straight up.
+// Returns no place for a frame that is missing or old.
 std::optional<CutterFollower::LastCut> CutterFollower::find(const FollowedCutter& cutter,
                                                             Nanoseconds now) {
   try {
@@ -72,21 +79,17 @@ std::optional<CutterFollower::LastCut> CutterFollower::find(const FollowedCutter
     const Nanoseconds stamp = fromMsg(found.header.stamp);
     if (stamp != 0 && secondsBetween(stamp, now) > STALE) return std::nullopt;
     const Pose to_world = fromMsg(found.transform);
-    Vec3 heading = rotate(to_world.orientation, Vec3(1.0, 0.0, 0.0));
-    heading.z() = 0.0;
-    const double size = length(heading);
-    if (!(size > TURNED_OR_MOVED)) return std::nullopt;
-    return LastCut{transformed(to_world, cutter.offset), heading / size, now};
+    return LastCut{{transformed(to_world, cutter.offset), normalized(to_world.orientation)}, now};
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
 }
 
-std::vector<grass::CutArea> CutterFollower::update(Nanoseconds now,
-                                                   const terrain::HeightMap& terrain,
-                                                   double height_gate,
-                                                   const grass::TreadSettings& settings) {
-  std::vector<grass::CutArea> out;
+std::vector<CutterFollower::Stroke> CutterFollower::follow(Nanoseconds now,
+                                                           const terrain::HeightMap& terrain,
+                                                           double height_gate,
+                                                           const grass::TreadSettings& settings) {
+  std::vector<Stroke> out;
   missing_.clear();
   if (!state_.enabled) return out;
   lookup_.begin(now);
@@ -94,25 +97,41 @@ std::vector<grass::CutArea> CutterFollower::update(Nanoseconds now,
     const std::optional<LastCut> here = find(cutter, now);
     if (!here) missing_.add(describeMissingTransform(cutter.frame, frame_id_));
     const bool is_down =
-        here && here->position.z() - terrain.height(here->position.x(), here->position.y()) <=
+        here && here->pose.position.z() -
+                        terrain.height(here->pose.position.x(), here->pose.position.y()) <=
                     cutter.height_gate.value_or(height_gate);
     if (!is_down) {
       state_.last.erase(cutter.name);
       continue;
     }
+    Stroke stroke{&cutter, std::nullopt, here->pose};
     const auto found = state_.last.find(cutter.name);
-    const bool is_new = found == state_.last.end() || isJump(found->second, *here, settings);
-    if (!is_new && stands(found->second, *here)) {
-      found->second.stamp = now;
-      continue;
+    if (found != state_.last.end() && !isJump(found->second, *here, settings)) {
+      stroke.from = found->second.pose;
+      stroke.stands = isSame(found->second.pose, here->pose);
     }
-    const grass::CutterPose pose = poseOf(*here);
-    if (is_new)
-      out.push_back(footprintOf(cutter.cutter, pose));
+    if (stroke.stands)
+      found->second.stamp = now;
     else
-      for (grass::CutArea& area : sweep(cutter.cutter, poseOf(found->second), pose))
-        out.push_back(std::move(area));
-    state_.last[cutter.name] = *here;
+      state_.last[cutter.name] = *here;
+    out.push_back(stroke);
+  }
+  return out;
+}
+
+std::vector<grass::CutArea> CutterFollower::update(Nanoseconds now,
+                                                   const terrain::HeightMap& terrain,
+                                                   double height_gate,
+                                                   const grass::TreadSettings& settings) {
+  std::vector<grass::CutArea> out;
+  for (const Stroke& stroke : follow(now, terrain, height_gate, settings)) {
+    const auto to = onMap(stroke.to);
+    if (stroke.stands || !to) continue;
+    const auto from = stroke.from ? onMap(*stroke.from) : std::nullopt;
+    const grass::Cutter& tool = stroke.tool->cutter;
+    const auto areas =
+        from ? sweep(tool, *from, *to) : std::vector<grass::CutArea>{footprintOf(tool, *to)};
+    out.insert(out.end(), areas.begin(), areas.end());
   }
   return out;
 }

@@ -23,10 +23,17 @@ class CutterFollower {
   /// A tool whose transform is older has left the ground [s].
   static constexpr double STALE = 0.5;
 
-  /// Where a tool was at its last tick.
+  /// Where the middle of a tool was at its last tick.
   struct LastCut {
-    Vec3 position{Vec3::Zero()}, heading{Vec3::Zero()};
+    Pose pose;
     Nanoseconds stamp{0};
+  };
+  /// The way of a tool since its last tick.
+  struct Stroke {
+    const FollowedCutter* tool;
+    std::optional<Pose> from;  ///< none: it was missing, off or higher than its gate, or has jumped
+    Pose to;
+    bool stands{false};  ///< it has not moved
   };
   /// State to be saved: whether tools cut, and the last place of each tool on the ground by its
   /// name.
@@ -39,9 +46,12 @@ class CutterFollower {
   CutterFollower(std::string frame_id, std::vector<FollowedCutter> cutters,
                  const tf2_ros::Buffer& buffer, double wait);
 
-  /// Returns the areas that the tools have swept since the last call, in the order of the tools. A
-  /// tool that was missing, higher than its gate or off cuts its footprint first, as does one whose
-  /// step is a jump by `longest_stroke` or `top_speed`.
+  /// Returns the ways of the tools that are below their gates, in the order of the tools. A step is
+  /// a jump by `longest_stroke` or `top_speed`.
+  std::vector<Stroke> follow(Nanoseconds now, const terrain::HeightMap& terrain, double height_gate,
+                             const grass::TreadSettings& settings = {});
+  /// Follows the tools and returns the areas that they have swept. One without a way cuts its
+  /// footprint, one that points straight up nothing.
   std::vector<grass::CutArea> update(Nanoseconds now, const terrain::HeightMap& terrain,
                                      double height_gate, const grass::TreadSettings& settings);
   void setEnabled(bool enabled);

@@ -15,6 +15,7 @@ FollowedCutter readCutter(YamlSection& section) {
   if (out.frame.empty()) section.fault("frame", "is missing");
   readPlace(section, out);
   describe(section, out.cutter);
+  section.number("thickest", out.thickest, "m", {0.0, 0.5});
   section.finish();
   return out;
 }

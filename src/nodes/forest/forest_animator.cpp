@@ -46,6 +46,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       cache_(static_cast<std::size_t>(options_.cache_budget)),
       grab_manager_({options_, *forest_, cache_, inputs_, tf_buffer_, [this] { checkpointNow(); }}),
       bodies_(handle_, options_.frame_id, options_.robot.parts, options_.frame_wait),
+      cutters_(options_.frame_id, options_.cutters, tf_buffer_, options_.frame_wait),
       frames_(options_.tf_budget),
       markers_(*forest_, cache_, options_.marker_points) {
   layout_publisher_ = handle_.advertise<ForestLayout>("forest/layout", 1, true);
@@ -59,6 +60,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
   breaks_publisher_ = handle_.advertise<BranchBreak>("forest/breaks", 1000);
   publishLayout();
   start("forest", "forest/markers", markers_);
+  cutters_.clear();  // after a checkpoint: how the tools have moved since then is unknown
 }
 
 void ForestAnimator::connect() {
@@ -73,6 +75,7 @@ void ForestAnimator::connect() {
   serve("release", &ForestAnimator::onRelease);
   serve("apply_force", &ForestAnimator::onApplyForce);
   serve("cut_branch", &ForestAnimator::onCutBranch);
+  serve("cutting", &ForestAnimator::onCutting);
   repeat(options_.tf_rate, &ForestAnimator::sendFrames);
   repeat(options_.branches_rate, &ForestAnimator::sendBranches);
 }
@@ -94,13 +97,17 @@ void ForestAnimator::restart() {
   resetForest();
   grab_manager_.clear();
   bodies_.clear();
+  cutters_.clear();
   last_framed_.reset();
   publishLayout();
 }
 
 void ForestAnimator::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
-  if (!options_.replay) followBodies(stamp);
+  if (!options_.replay) {
+    followBodies(stamp);
+    followCutters(stamp);
+  }
   grab_manager_.follow(
       stamp, [this](const std::string& what, const std::string& why) { refusals_.add(what, why); });
   applyInputs(stamp);

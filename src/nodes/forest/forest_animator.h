@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <std_srvs/SetBool.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <vegetation_sim/ApplyForce.h>
 #include <vegetation_sim/CutBranch.h>
@@ -23,6 +24,7 @@
 #include "forest/pick.h"
 #include "nodes/base/event_node.h"
 #include "nodes/base/viewer_registry.h"
+#include "nodes/cutters/cutter_follower.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
 #include "nodes/forest/frames/branch_frames.h"
@@ -60,6 +62,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void publishForces();
   void publishBreaks();
   void followBodies(Nanoseconds stamp);
+  void followCutters(Nanoseconds stamp);
   void reportLostGrabs();
   void applyTuning(const ForestTuning& tuning);
   /// The scenario's layout with the design of a tuning.
@@ -99,6 +102,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   bool onRelease(Release::Request& request, Release::Response& response);
   bool onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response);
   bool onCutBranch(CutBranch::Request& request, CutBranch::Response& response);
+  bool onCutting(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   forest::Ray rayOf(const Pick::Request& request) const;
   Nanoseconds stampOf(const ros::Time& stamp) const;
 
@@ -109,6 +113,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   forest::TreeCache cache_;
   GrabManager grab_manager_;
   RobotBodies bodies_;
+  CutterFollower cutters_;
   BranchFrames frames_;
   ForestMarkers markers_;
   forest::BrokenTrees trunks_broken_;  // in the published trunks
@@ -118,6 +123,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   bool force_key_frame_{true}, grabs_published_{false};
   std::uint64_t state_bytes_{0}, leases_ended_{0};
   std::uint64_t grabs_lost_{0}, reported_grabs_lost_{0};  // to another design
+  std::uint64_t left_uncut_{0}, reported_left_uncut_{0};  // branches that tools have met
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;

@@ -1,13 +1,27 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+
 #include "core/config/field_values.h"
+#include "forest/knife.h"
 #include "nodes/forest/forest_animator.h"
+#include "tree/growth/broken_branch.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 
 namespace vegetation_sim {
 namespace {
+
+constexpr std::size_t MOST_TOOL_CUTS = 256;  // of a tick
+constexpr double NO_GATE = std::numeric_limits<double>::infinity();
+
+forest::Knife knifeOf(const CutterFollower::Stroke& stroke) {
+  const grass::Cutter& tool = stroke.tool->cutter;
+  return {tool.shape == grass::CutterShape::DISC, tool.length, tool.width, stroke.tool->thickest,
+          stroke.from.value_or(stroke.to),        stroke.to};
+}
 
 ForestTuning fromConfig(const ForestAnimatorConfig& config) {
   ForestTuning out;
@@ -79,6 +93,39 @@ void ForestAnimator::onSensor(const SensorInterest& message) {
       event.sensor.position = transformed(poseOf(frame), event.sensor.position);
     inputs_.add(event);  // a full queue counts it as lost
   });
+}
+
+// Cuts what the tools meet on their way, in the pose of the last tick. A tool that stands cuts what
+// moves into it.
+void ForestAnimator::followCutters(Nanoseconds stamp) {
+  std::vector<forest::Knife> knives;
+  for (const auto& stroke : cutters_.follow(stamp, forest_->terrain(), NO_GATE))
+    knives.push_back(knifeOf(stroke));
+  const forest::TreePoser trees{[this](std::uint32_t id) {
+                                  const auto grown = cache_.get(*forest_, id);
+                                  return std::shared_ptr<const forest::Tree>(grown, &grown->tree);
+                                },
+                                [this](const forest::Tree& tree, std::uint32_t id) {
+                                  return forest_->pose(tree, id, forest_->snapshot().stamp);
+                                }};
+  std::vector<forest::BranchCut> cuts =
+      findCuts(forest_->layout(), forest_->grid(), forest_->terrain(), knives, trees);
+  const std::size_t broken = countBroken(forest_->broken());
+  const std::size_t room =
+      std::min(MOST_TOOL_CUTS, forest::MOST_BROKEN - std::min(forest::MOST_BROKEN, broken));
+  if (cuts.size() > room) {
+    left_uncut_ += cuts.size() - room;
+    ROS_WARN_THROTTLE(1.0, "forest_animator: tools leave %zu branches uncut", cuts.size() - room);
+    cuts.resize(room);
+  }
+  // The last one that is added is applied first.
+  std::reverse(cuts.begin(), cuts.end());
+  for (const forest::BranchCut& cut : cuts) {
+    ForestInput event;
+    event.kind = ForestInput::CUT;
+    event.cut = cut;
+    inputs_.addFirst(event);
+  }
 }
 
 void ForestAnimator::showTuning(ForestAnimatorConfig& config) const {

@@ -61,7 +61,9 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
 void ForestAnimator::addDiagnostics(Status& status) {
   bodies_.missing().warn(name_, status);
   status.add("Frames of bodies without a transform", bodies_.missing().size());
-  status.add("Transforms too late for their tick", bodies_.late());
+  cutters_.missing().warn(name_, status);
+  status.add("Cutters without a position", cutters_.missing().size());
+  status.add("Transforms too late for their tick", bodies_.late() + cutters_.late());
   for (const std::string& link : options_.robot.left_out)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
   status.add("Links of robots without a shape", options_.robot.left_out.size());
@@ -83,6 +85,9 @@ void ForestAnimator::addDiagnostics(Status& status) {
   warnOfMore(status, grabs_lost_, reported_grabs_lost_,
              "grabs ended: the trees have another design");
   reported_grabs_lost_ = grabs_lost_;
+  status.add("Branches that tools have left uncut", left_uncut_);
+  warnOfMore(status, left_uncut_, reported_left_uncut_, "branches that tools have left uncut");
+  reported_left_uncut_ = left_uncut_;
   deepest_ = {};
   updateDeepestOverlap();
   status.add("tf frames", frames_sent_);

@@ -4,6 +4,7 @@
 
 #include "forest/pick.h"
 #include "forest/trees_around.h"
+#include "nodes/cutters/cut_request.h"
 #include "nodes/forest/forest_animator.h"
 #include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
@@ -168,6 +169,13 @@ bool ForestAnimator::onRelease(Release::Request& request, Release::Response& res
 
 bool ForestAnimator::onCutBranch(CutBranch::Request& request, CutBranch::Response& response) {
   return answer(response, [&] { return grab_manager_.cut(request, response); });
+}
+
+bool ForestAnimator::onCutting(std_srvs::SetBool::Request& request,
+                               std_srvs::SetBool::Response& response) {
+  // No event shows it.
+  if (switchCutters(request, options_.replay, cutters_, response)) checkpointNow();
+  return true;
 }
 
 bool ForestAnimator::onApplyForce(ApplyForce::Request& request, ApplyForce::Response& response) {

@@ -23,6 +23,8 @@ void ForestAnimator::writeState(Archive& a) const {
   GrabManager::archive(a, grabs);
   RobotBodies::Seen bodies = bodies_.seen();
   RobotBodies::archive(a, bodies);
+  CutterFollower::State cutters = cutters_.state();
+  CutterFollower::archive(a, cutters);
 }
 
 CheckedState ForestAnimator::readState(Archive& a) {
@@ -35,6 +37,8 @@ CheckedState ForestAnimator::readState(Archive& a) {
   GrabManager::archive(a, grabs);
   RobotBodies::Seen bodies;
   RobotBodies::archive(a, bodies);
+  CutterFollower::State cutters;
+  CutterFollower::archive(a, cutters);
   const forest::Layout layout = designedLayout(tuning);
   // A state can be read by a forest of its layout only.
   std::optional<forest::Forest> other;
@@ -48,6 +52,7 @@ CheckedState ForestAnimator::readState(Archive& a) {
             forest_->restore(*read);
             grab_manager_.restore(grabs);
             bodies_.restore(bodies);
+            cutters_.restore(cutters);
             deepest_ = {};
             last_framed_.reset();
             force_key_frame_ = true;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/forest/forest_options.h"
 
+#include <utility>
+
 #include "ros/services/frame_lookup.h"
 
 namespace vegetation_sim {
@@ -45,9 +47,12 @@ ForestScene loadForestScene(const std::string& name) {
   if (name.empty()) return out;
   SceneFile file(name, out);
   file.loadTerrain();
-  if (file.has("forest"))
-    out.layout = forest::readLayout(file.section("forest"), file.folder(), *out.terrain, out.seed,
+  if (file.has("forest")) {
+    YamlSection section = file.section("forest");
+    out.cutters = readCutters(section);
+    out.layout = forest::readLayout(std::move(section), file.folder(), *out.terrain, out.seed,
                                     file.faults());
+  }
   if (file.has("physics")) {
     YamlSection physics = file.section("physics");
     describe(physics, out.physics);
@@ -69,6 +74,11 @@ ForestOptions loadForestOptions(const ros::NodeHandle& private_handle) {
   parameters.integers("branches_trees", out.branches_trees, {0, 1 << 24});
   describe(parameters, out);
   out.robot = readRobotParts(private_handle, parameters);
+  out.cutters = out.scene.cutters;
+  if (YAML::Node list; parameters.list("cutters", list)) {
+    YamlSection section(list, private_handle.getNamespace(), parameters.faults());
+    out.cutters = readCutters(section);
+  }
   if (parameters.faults().empty()) checkTrees(out, parameters);
   parameters.finish();
   return out;

@@ -10,6 +10,7 @@
 #include "forest/forest.h"
 #include "nodes/base/node_options.h"
 #include "nodes/bodies/robot_bodies.h"
+#include "nodes/cutters/followed_cutter.h"
 #include "nodes/forest/forest_inputs.h"
 #include "ros/params/scene_file.h"
 
@@ -19,6 +20,7 @@ namespace vegetation_sim {
 struct ForestScene : SceneBase {
   forest::Layout layout;
   forest::PhysicsSettings physics;
+  std::vector<FollowedCutter> cutters;
 };
 /// No file or no `forest` in it gives no trees. @throws InvalidInput with all faults of the file.
 ForestScene loadForestScene(const std::string& name);
@@ -44,7 +46,8 @@ struct ForestOptions : NodeOptions {
   double grab_distance{10.0};       ///< farthest target from the point held [m]
   bool tf_promoted{true};           ///< frames of physical branches, where tf_budget has room
   RobotParts robot;                 ///< bodies that push branches aside
-  ForestTuning tuning;              ///< initial values for dynamic_reconfigure
+  std::vector<FollowedCutter> cutters;
+  ForestTuning tuning;  ///< initial values for dynamic_reconfigure
   ForestScene scene;
 };
 void describe(FieldVisitor& visitor, ForestOptions& options);

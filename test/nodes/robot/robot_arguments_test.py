@@ -81,8 +81,8 @@ class RobotArguments(RefusingNode):
         self.expect_refused('grass_field', 'sources', 'height_gate = -1 m is outside', height_gate='-1')
         self.expect_refused('grass_field', 'sources', 'radios is not a known key', tread='radios: 1')
 
-    def test_cutters_are_those_of_both_nodes(self):
-        for node in 'grass_field', 'canopy_animator':
+    def test_cutters_are_those_of_three_nodes(self):
+        for node in 'grass_field', 'canopy_animator', 'forest_animator':
             parameters = parameters_of(node, {'robot': 'a', 'cutters': '[{frame: bar, width: 2}]'})
             self.assertEqual(parameters['cutters'], {'a': [{'frame': 'bar', 'width': 2}]})
             self.assertNotIn('cutters', parameters_of(node, {}))

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "canopy/plants/swath.h"
 #include "scenes/canopy/canopy_scene.h"
 #include "vegetation_sim/canopy/canopy.h"
 
@@ -85,8 +87,38 @@ TEST(PosedPlant, RaysPassAboveTheCut) {
   PosedPlant none(layout, 0, 0.0);
   Calm calm(layout);
   none.pose(calm.bend({}));
-  EXPECT_EQ(none.parts(), 0U);
   EXPECT_EQ(rangeAt(none, 0.1), 20.0);
+}
+
+// Rays from above meet the straw within its layer, as foliage, and bodies that the stubble leans
+// from do not move it.
+TEST(PosedPlant, StrawLiesOnTheGround) {
+  const canopy::Layout layout = oneStalk();
+  PosedPlant cut(layout, 0, 0.0);
+  Calm calm(layout);
+  const double ground = layout.plants[0].position.z();
+  std::vector<double> heights;
+  for (const double lean : {0.0, LEAN}) {
+    cut.pose(calm.bend(leaning(lean)));
+    std::size_t met = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Ray ray{Vec3(0.05 * (i % 20) - 0.5, 0.05 * (i / 20) - 0.5, ground + 5.0),
+                    Vec3(0.0, 0.0, -1.0)};
+      Hit hit;
+      hit.distance = 5.0;
+      RankedHit nearest(hit);
+      cut.meet(ray, FloatRay(ray), 1, nearest);
+      if (hit.distance == 5.0) continue;
+      ++met;
+      EXPECT_EQ(hit.label, Label::FOLIAGE);
+      EXPECT_LE(5.0 - hit.distance, canopy::SWATH_HEIGHT);
+      heights.push_back(5.0 - hit.distance);
+    }
+    EXPECT_GT(met, 100U);
+  }
+  const std::size_t half = heights.size() / 2;
+  EXPECT_TRUE(
+      std::equal(heights.begin(), heights.begin() + half, heights.begin() + half, heights.end()));
 }
 
 // Leaves turn with the fibre of their anchor, stems with those of their ends, corner by corner.

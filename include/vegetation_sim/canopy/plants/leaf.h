@@ -21,6 +21,7 @@ struct Leaf {
   float shade{0.0F};   ///< mix of colour and colour_young
   float light{1.0F};   ///< share of the daylight; less inside and below (S3-W5)
   bool joined{false};  ///< a triangle (tip_width 0) that shares corners with other faces
+  bool lies{false};    ///< was cut off and lies on the ground: neither wind nor bodies move it
 };
 
 /// A straight rigid part.

@@ -35,7 +35,7 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
           'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
-          'tf_promoted', 'bodies'}  # robot_bodies_test has more tests of bodies
+          'tf_promoted', 'cutters', 'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -62,6 +62,7 @@ SCENARIOS = [
     ('{forest: {species: [{file: SPECIES/oak.yaml}], rows: [{species: oak, width: 5, rows: 2}]}}',
      'forest: rows[0]: rows and width are both given; only one is allowed'),
     ('{forest: {}}', 'forest: layout: species is empty'),
+    ('{forest: {cutters: [{width: 0.2}]}}', 'forest: cutters[0]: frame is missing'),
     ('{seed: -1}', "seed = '-1' is not a whole number from 0 to 2^64 - 1"),
     ('{frame_id: /map}', "frame_id = '/map' begins with '/'"),
     ('{forest', 'not YAML'),
@@ -96,6 +97,17 @@ class ForestParameters(Ranges, RefusingNode):
         for scenario, words in SCENARIOS:
             self.expect_scenario_refused(scenario.replace('SPECIES', species), words,
                                          by_file='frame_id' not in scenario)
+
+    def test_bad_cutters_are_refused(self):
+        for cutters, text in (
+                ([{'frame': 'a', 'thickest': 0.6}],
+                 'cutters[0]: thickest = 0.6 m is outside 0 to 0.5 m'),
+                ([{'frame': 'a', 'thickest': -1}], 'thickest = -1 m is outside 0 to 0.5 m'),
+                ([{'frame': 'a', 'thickest': float('nan')}], 'thickest = nan is not finite'),
+                ([{'frame': 'a', 'thickest': 'thumb'}], "thickest = 'thumb' is not a number"),
+                ([{'frame': 'a', 'height': 6}], 'cutters[0]: height = 6 m is outside 0 to 5 m'),
+                ([{'frame': 'a'}, {'frame': 'a'}], "cutters names 'a' twice"), (7, 'cutters = ')):
+            self.assertIn(text, self.refusal({'cutters': cutters}))
 
     def test_faults_of_parameters_and_scenario_are_reported_together(self):
         refusal = self.refusal({'tolerance': 0, 'tf_rate': 'fast', 'lod': 3,

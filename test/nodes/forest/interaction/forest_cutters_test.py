@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tools on tf frames trim the trees of forest_animator: a bar takes off the branches that are thin
+enough and that it meets, and no others; events, breaks, limits, a snapshot, and a replay with the
+same hashes."""
+import unittest
+
+import rospy
+import rostest
+from std_srvs.srv import SetBool, Trigger
+from vegetation_sim.msg import BranchBreak, ForestEvent
+from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
+
+from crowd_rig import Cart
+from forest_rig import RATE, Animator, TickClock, time_of
+from grab_rig import along_z, vector
+from watched_node import Log
+
+BEGIN = 1000 * RATE
+HEIGHT, HALF_LENGTH, HALF_WIDTH = 1.3, 0.15, 0.4  # of the bar [m]
+THICKEST = 0.0045  # [m]
+FROM, TO = -0.6, 0.25  # x of the first vine that the bar passes [m]
+MARGIN = 0.004  # [m] by which a branch is surely met or missed, in place and in radius
+MOST = 256  # cuts of tools in a tick
+OAK = 2
+
+
+class Vine:
+    """A tree at one stamp."""
+
+    def __init__(self, answer):
+        self.parents, self.lengths, self.radii = answer.parents, answer.lengths, answer.radii
+        self.poses = answer.transforms.poses
+        self.gone = {b.branch for b in answer.broken}
+        for i, parent in enumerate(self.parents):
+            if parent in self.gone:
+                self.gone.add(i)
+
+    def meets(self, branch, margin):
+        """Returns whether points of the branch are in the box that the bar sweeps, larger by
+        `margin`, and the branch is at least that much thinner than the limit all along."""
+        if self.radii[branch] + 0.1 * margin > THICKEST:
+            return False
+        for k in range(401):
+            x, y, z = along_z(self.poses[branch], self.lengths[branch] * k / 400)
+            if (abs(z - HEIGHT) <= 0.01 + margin and abs(y) <= HALF_WIDTH + margin and
+                    FROM - HALF_LENGTH - margin <= x <= TO + HALF_LENGTH + margin):
+                return True
+        return False
+
+    def carriers(self, branch):
+        """Returns the branch and all below it."""
+        while branch >= 0:
+            yield branch
+            branch = self.parents[branch]
+
+
+class ForestCutters(unittest.TestCase):
+    def setUp(self):
+        self.clock = TickClock(BEGIN)
+        self.forest = Animator()
+        self.again = Animator('/again/forest_animator', '/again/')
+        self.again.events = self.forest.events
+        self.breaks = [Log(name + '/forest/breaks', BranchBreak) for name in ('', '/again')]
+        self.again.wait_until_up('/wind', '/forest/events')
+        self.clock.begin(self.forest)
+        for log in self.breaks:
+            log.wait(lambda _: log.connected(), 'the connection of ' + log.topic)
+        self.run_ticks(10)
+        self.cart, self.saw = Cart(self.forest), Cart(self.forest, 'saw')
+        self.switch = rospy.ServiceProxy('/forest_animator/cutting', SetBool)
+
+    def run_ticks(self, count):
+        """Runs single ticks; before each one the replay has received the events of the previous
+        tick."""
+        for _ in range(count):
+            self.clock.run(1, self.forest)
+            self.again.settle()
+
+    def vine(self, tree):
+        return Vine(self.forest.tree(tree))
+
+    def cuts(self, stamp=None):
+        """Returns the cuts of all ticks or of one, in order."""
+        return [(e.cut.tree, e.cut.branch) for e in self.forest.events.messages
+                if e.kind == ForestEvent.CUT and stamp in (None, e.header.stamp)]
+
+    def drive(self, first, last, steps):
+        """Drives the bar along the row, and away."""
+        for i in range(steps + 1):
+            self.cart.put(first + (last - first) * i / steps, 0.0, time_of(self.clock.tick + 1))
+            self.run_ticks(1)
+        self.cart.put(500.0, 0.0, time_of(self.clock.tick + 1))
+        self.run_ticks(2)
+
+    def test_tools_cut_thin_branches(self):
+        self.expect_no_cut_when_off()
+        self.expect_a_trimmed_vine()
+        self.expect_a_snapshot()
+        self.expect_a_bounded_tick()
+        self.expect_equal_replay()
+
+    def expect_no_cut_when_off(self):
+        again = rospy.ServiceProxy('/again/forest_animator/cutting', SetBool)
+        self.assertIn('replay', again(False).message)
+        self.assertTrue(self.switch(False).success)
+        self.drive(FROM, TO, 5)
+        self.assertEqual(self.cuts(), [])
+        self.assertTrue(self.switch(True).success)
+
+    def expect_a_trimmed_vine(self):
+        before, other = self.vine(0), self.vine(1)
+        self.assertEqual(before.gone, set())
+        branches = range(1, len(before.parents))
+        sure = {b for b in branches if before.meets(b, -MARGIN)}
+        possible = {b for b in branches if before.meets(b, MARGIN)}
+        met = {c for b in branches for c in before.carriers(b)} - possible
+        self.drive(FROM, TO, 5)
+        after = self.vine(0)
+        self.assertGreater(len(sure), 3)
+        self.assertLess(len(possible), len(before.parents) // 2)
+        self.assertEqual(sorted(sure - after.gone), [])
+        taken = {b for b in branches if possible & set(before.carriers(b))}
+        self.assertEqual(sorted(after.gone - taken), [])
+        self.assertTrue(met - after.gone, 'nothing is left')
+        # Wood in the way of the bar that is thicker stays.
+        thick = [b for b in branches if before.radii[b] > THICKEST + 0.001 and
+                 abs(vector(before.poses[b].position)[2] - HEIGHT) < 0.3]
+        self.assertTrue(thick)
+        self.assertEqual(set(thick) & after.gone, set())
+        # The second vine is met by nothing.
+        self.assertEqual(self.vine(1).gone, set())
+        self.assertEqual(other.gone, set())
+        cuts = self.cuts()
+        self.assertEqual({tree for tree, _ in cuts}, {0})
+        self.assertEqual(len(cuts), len(set(cuts)))
+        for stamp in {e.header.stamp for e in self.forest.events.messages}:
+            self.assertEqual(self.cuts(stamp), sorted(self.cuts(stamp)))
+        pieces = self.breaks[0].wait(lambda all: len(all) == len(cuts) and all, 'the breaks')
+        self.assertEqual([(p.tree, p.piece.branch, p.piece.cut) for p in pieces],
+                         [cut + (True,) for cut in cuts])
+        figures = self.forest.diagnostics()
+        self.assertEqual(figures['Branches that have come off'], len(cuts))
+        self.assertEqual(figures['Branches that tools have left uncut'], 0)
+        print('%d of %d branches are cut off in %d pieces' % (
+            len(after.gone), len(before.parents), len(cuts)))
+
+    def expect_a_snapshot(self):
+        gone = self.vine(0).gone
+        self.assertTrue(self.switch(False).success)
+        saved = rospy.ServiceProxy('/forest_animator/save_snapshot', SaveSnapshot)(name='cut')
+        self.assertTrue(saved.success, saved.message)
+        self.assertTrue(self.switch(True).success)
+        self.assertTrue(rospy.ServiceProxy('/forest_animator/reset', Trigger)().success)
+        self.run_ticks(2)
+        self.assertEqual(self.vine(0).gone, set())
+        loaded = rospy.ServiceProxy('/forest_animator/load_snapshot', LoadSnapshot)(name='cut')
+        self.assertTrue(loaded.success, loaded.message)
+        self.again.settle()
+        self.run_ticks(2)
+        self.assertEqual(self.vine(0).gone, gone)
+        count = len(self.cuts())
+        self.drive(0.5, 1.5, 4)  # tools are off again
+        self.assertEqual(len(self.cuts()), count)
+        self.assertTrue(self.switch(True).success)
+        self.drive(0.5, 1.5, 4)
+        self.assertGreater(len(self.cuts()), count)
+
+    def expect_a_bounded_tick(self):
+        """A saw that stands across the crown of the oak cuts the branches that it meets in several
+        ticks."""
+        figures = []
+        for _ in range(2):
+            self.saw.put(0.0, 30.0, time_of(self.clock.tick + 1))
+            self.run_ticks(1)
+            figures.append(self.cuts(time_of(self.clock.tick)))
+        self.assertEqual(len(figures[0]), MOST)
+        self.assertEqual({tree for tree, _ in figures[0] + figures[1]}, {OAK})
+        self.assertEqual(figures[0], sorted(figures[0]))
+        self.assertTrue(figures[1])
+        self.assertEqual(set(figures[0]) & set(figures[1]), set())
+        self.assertGreater(self.forest.diagnostics()['Branches that tools have left uncut'], 0)
+        self.saw.put(500.0, 30.0, time_of(self.clock.tick + 1))
+
+    def expect_equal_replay(self):
+        self.run_ticks(RATE)
+        end = time_of(self.clock.tick)
+        self.run_ticks(16)  # The replay runs half a second behind.
+        self.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
+                              lambda: self.clock.show(self.clock.tick))
+        run, replay = self.forest.states(), self.again.states()
+        both = sorted(set(run) & set(replay))
+        self.assertGreater(len(both), 3 * RATE)
+        self.assertEqual([s for s in both if run[s] != replay[s]], [])
+        told = [p for p in self.breaks[0].messages]
+        self.assertEqual(self.breaks[1].wait(lambda all: len(all) >= len(told) and all, 'the breaks'),
+                         told)
+
+
+if __name__ == '__main__':
+    rospy.init_node('forest_cutters_test')
+    rostest.rosrun('vegetation_sim', 'forest_cutters', ForestCutters)
