@@ -15,6 +15,9 @@ using P = Proportions;
 // Largest share of a leg's length; a straight leg has no direction of bending.
 constexpr double STRETCHED = 0.999;
 constexpr double LEAN = 0.04;  // lean of the trunk per m/s [rad]
+// People lean forward uphill and back downhill, far less than the ground does (Leroux, Fung and
+// Barbeau 2002): share of the slope's angle.
+constexpr double LEAN_ON_SLOPE = 0.3;
 
 // Directions of a walker's body.
 struct Axes {
@@ -31,7 +34,26 @@ Axes axesOf(const Walker& w) {
   return {Vec3(turn.cos, turn.sin, 0.0), Vec3(-turn.sin, turn.cos, 0.0), Vec3::UnitZ()};
 }
 
-// A planted foot rolls. A swinging foot is as much higher than the other as the joints lift it.
+// Returns the slope of the ground around a place along the walker's front [rad], uphill positive.
+// It has no steps where facets meet.
+double slopeAt(const Point& place, const Axes& axes, const terrain::HeightMap& terrain) {
+  if (terrain.isFlat()) return 0.0;
+  constexpr double HALF = 0.15;  // length of a foot [m]
+  const double x = HALF * axes.front.x(), y = HALF * axes.front.y();
+  const double rise =
+      terrain.height(place.x + x, place.y + y) - terrain.height(place.x - x, place.y - y);
+  return arcTangent(rise, 2.0 * HALF);
+}
+
+// Returns the axes turned about the left one, so that the front rises by an angle.
+Axes raised(const Axes& axes, double angle) {
+  const SinCos turn = sinCos(angle);
+  return {turn.cos * axes.front + turn.sin * axes.up, axes.left,
+          turn.cos * axes.up - turn.sin * axes.front};
+}
+
+// A planted foot rolls on the slope of its own ground. A swinging foot is as much higher than the
+// other as the joints lift it.
 Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::HeightMap& terrain) {
   const double amplitude = gaitAmplitude(speedOf(w), w.height);
   const LegPose own = legPose(footPhase(w, side), amplitude);
@@ -48,8 +70,10 @@ Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::Height
   }
   const Point ball = footPlace(w, side);
   Vec3 place(ball.x, ball.y, terrain.height(ball.x, ball.y));
-  place += w.height * (forward * axes.front + up * axes.up);
-  return {place, own.pitch};
+  const double slope = slopeAt(ball, axes, terrain);
+  const Axes ground = raised(axes, slope);
+  place += w.height * (forward * ground.front + up * ground.up);
+  return {place, own.pitch + slope};
 }
 
 // Returns the highest pelvis from which a leg reaches its ankle.
@@ -134,7 +158,8 @@ Skeleton skeletonOf(const Walker& w, const terrain::HeightMap& terrain) {
     pelvis.z() = std::min(pelvis.z(), reachOf(ankles[side].place, hips[side], leg));
   for (int side = 0; side < 2; ++side)
     body.putLeg(side, Vec3(hips[side].x(), hips[side].y(), pelvis.z()), ankles[side]);
-  const SinCos tilt = sinCos(std::min(0.15, LEAN * speedOf(w)));
+  const SinCos tilt = sinCos(std::min(0.15, LEAN * speedOf(w)) +
+                             LEAN_ON_SLOPE * slopeAt(w.position, axes, terrain));
   const Vec3 lean = tilt.sin * axes.front + tilt.cos * axes.up;
   const Vec3 chest = pelvis + (P::SHOULDER - P::THIGH - P::SHANK - P::ANKLE) * h * lean;
   body.putTrunk(pelvis, chest, lean);

@@ -64,7 +64,8 @@ void runScenario(std::string_view input) {
 
 std::vector<std::string> scenarioSeeds() {
   std::vector<std::string> out;
-  for (const char* name : {"forest", "meadow", "crowd", "grove", "demo", "vineyard", "maize"})
+  for (const char* name :
+       {"forest", "meadow", "crowd", "hills", "grove", "demo", "vineyard", "maize"})
     out.push_back(textOf(SCENARIOS + "/" + name + ".yaml"));
   return out;
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the meadow scenarios of the demo without rviz: the rolling stone (S2-29) and the robot leave
-tracks, the mower cuts."""
+"""Runs the meadow scenarios of the demo without rviz: the rolling stone (S2-29), the robot and people
+on a hillside leave tracks, the mower cuts."""
 import math
 import signal
 import subprocess
@@ -21,6 +21,7 @@ from waiting import DEADLINE, wait_for
 from watched_node import Log
 
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
+         'hills': ['/agent_crowd', '/forest_animator', '/grass_field', '/wind_broadcaster'],
          'mowing': ['/mower', '/grass_field', '/wind_broadcaster'],
          'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
 
@@ -80,6 +81,21 @@ class GrassScenarios(unittest.TestCase):
         self.assertTrue(cut.cut)
         self.assertAlmostEqual(cut.height, 0.06, places=6)
         self.assertFalse(beside.cut)
+
+    # S2-36: the scene of paper 2.
+    def test_people_tread_a_hillside_between_trees(self):
+        self.start('hills')
+        self.run_until(lambda: len({t.source for t in self.treads()}) > 30, 'people')
+        self.run_until(lambda: len(self.treads()) > 2000, 'people who walk')
+        down = [t.position for t in self.treads()]
+        self.clock.run(1, self.meadow)
+        self.assertGreater(max(p.z for p in down) - min(p.z for p in down), 6.0)
+        samples = self.meadow.samples([(p.x, p.y) for p in down])
+        self.assertLess(max(abs(s.position.z - p.z) for s, p in zip(samples, down)), 1e-6)
+        self.assertGreater(min(s.tilt for s in samples if s.inside), 1.0)
+
+    def treads(self):
+        return [e.tread for e in self.meadow.events.messages if e.tread.source.startswith('walker_')]
 
     def test_a_robot_leaves_the_tracks_of_its_wheels(self):
         self.start('meadow_robot')
