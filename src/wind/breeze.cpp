@@ -8,6 +8,7 @@
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
+#include "wind/wind_axes.h"
 
 namespace vegetation_sim::wind {
 namespace {
@@ -15,21 +16,6 @@ namespace {
 enum Draw : std::uint64_t { JITTER, PHASE, SIGN_LATERAL, SIGN_VERTICAL, ACROSS, UP, DRAWS };
 
 constexpr double WIDEST_DRAW = 10.0;  // [scales] 94 % of Cauchy's distribution lie within
-
-struct Axes {
-  Vec3 along, across, up;
-};
-
-Axes axesOf(const Vec3& mean, double speed) {
-  const Vec3 along = mean / speed;
-  const double level = std::sqrt(along.x() * along.x() + along.y() * along.y());
-  const Vec3 across =
-      level > 1e-9 ? Vec3(-along.y() / level, along.x() / level, 0.0) : Vec3(Vec3::UnitY());
-  const Vec3 up(along.y() * across.z() - along.z() * across.y(),
-                along.z() * across.x() - along.x() * across.z(),
-                along.x() * across.y() - along.y() * across.x());
-  return {along, across, up};
-}
 
 /// Maps a uniform u in [0, 1) to Cauchy's distribution of unit scale, whose characteristic function
 /// is the exponential that Davenport's coherence needs. The tails beyond WIDEST_DRAW are left out.
@@ -79,7 +65,7 @@ Breeze::Breeze(const Primitive& p, std::uint64_t seed) {
   const double speed = length(p.velocity), sigma = p.turbulence * speed;
   if (!(sigma > 0.0)) return;
   const double carrier = std::max(speed, LEAST_CARRIER);
-  const Axes axes = axesOf(p.velocity, speed);
+  const WindAxes axes = axesOf(p.velocity, speed);
   Hash name;
   name.add(p.name);
   const Random random = Random(seed).child(name.value());

@@ -9,6 +9,7 @@
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/wind/breeze.h"
 #include "wind/fade.h"
+#include "wind/gauss_markov.h"
 #include "wind/laws.h"
 #include "wind/limits.h"
 #include "wind/trajectory.h"
@@ -37,6 +38,15 @@ void shapeDisk(const Primitive& p, double elapsed, double weight, Term& term) {
   term.smooth = p.envelope == Envelope::SMOOTH;
   term.amplitude = p.velocity * (weight * sine);
   term.peak = weight * length(p.velocity);
+}
+
+// It acts as a disk whose amplitude follows the process. Three standard deviations count for the
+// bound, as for a breeze.
+void shapeGaussMarkov(const Primitive& p, const GaussMarkov& process, double elapsed, double weight,
+                      Term& term) {
+  term.kind = Kind::DISK;
+  term.amplitude = weight * (p.velocity + process.at(elapsed));
+  term.peak = weight * (length(p.velocity) + 3.0 * process.rms());
 }
 
 void shapeGust(const Primitive& p, double elapsed, double weight, Term& term) {
@@ -96,6 +106,7 @@ void shapeEddy(const Primitive& p, double weight, Term& term) {
 struct Field::Compiled {
   Trajectory path;
   Breeze breeze;
+  GaussMarkov gauss_markov;
 
   Vec3 centreAt(const Primitive& p, Nanoseconds stamp) const {
     const Vec3 centre = path.at(stamp);
@@ -131,9 +142,10 @@ Field::Field(std::vector<Primitive> primitives, std::uint64_t seed)
   }
   faults.throwIfAny();
   for (const Primitive& p : primitives_) {
-    const bool breeze = p.kind == Kind::BREEZE;
+    const bool breeze = p.kind == Kind::BREEZE, markov = p.kind == Kind::GAUSS_MARKOV;
     compiled_.push_back(std::make_shared<Compiled>(
-        Compiled{Trajectory(p.trajectory), breeze ? Breeze(p, seed_) : Breeze()}));
+        Compiled{Trajectory(p.trajectory), breeze ? Breeze(p, seed_) : Breeze(),
+                 markov ? GaussMarkov(p, seed_) : GaussMarkov()}));
   }
 }
 
@@ -171,6 +183,8 @@ bool Field::termAt(std::size_t index, Nanoseconds stamp, Term& out) const {
   out.radius = p.radius;
   out.centre = compiled_[index]->centreAt(p, stamp);
   if (out.kind == Kind::DISK) shapeDisk(p, elapsed, weight, out);
+  if (p.kind == Kind::GAUSS_MARKOV)
+    shapeGaussMarkov(p, compiled_[index]->gauss_markov, elapsed, weight, out);
   if (out.kind == Kind::GUST) shapeGust(p, elapsed, weight, out);
   if (out.kind == Kind::TORNADO || out.kind == Kind::BLAST) shapeEddy(p, weight, out);
   if (out.kind == Kind::WAKE) {

@@ -44,11 +44,4 @@ double Instant::speedBound(const Vec3& position, double reach) const {
   return bound;
 }
 
-int Instant::influences(const Vec3& position, double reach) const {
-  int count = breezes;
-  for (const Term& term : terms)
-    if (boundOf(term, position, reach) > 0.0) ++count;
-  return count;
-}
-
 }  // namespace vegetation_sim::wind

@@ -21,8 +21,9 @@ constexpr Nanoseconds LONGEST_WAIT = 30 * NANOSECONDS_PER_SECOND;
 constexpr Range SPEEDS{-200.0, 200.0};  ///< [m/s] each component
 /// [m/s] horizontal, of the body of a wake; a faster step of a followed frame is a jump
 constexpr Range BODY_SPEEDS{0.0, 200.0};
-constexpr Range POSITIONS{-1e6, 1e6};  ///< [m] each component
-constexpr Range TURBULENCE{0.0, 1.0};  ///< rms / mean
+constexpr Range POSITIONS{-1e6, 1e6};     ///< [m] each component
+constexpr Range TURBULENCE{0.0, 1.0};     ///< rms / mean
+constexpr Range TIME_SCALES{0.1, 600.0};  ///< [s] of a Gauss-Markov wind
 
 /// Returns the horizontal speed between way points [m/s]; infinite or NaN for equal stamps.
 double levelSpeed(const Waypoint& from, const Waypoint& to);

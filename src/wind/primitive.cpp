@@ -25,7 +25,7 @@ struct Split {
 void visit(const Split& split, Primitive& p) {
   const bool disk = isKind(p, {Kind::DISK}), breeze = isKind(p, {Kind::BREEZE});
   const bool gust = isKind(p, {Kind::GUST}), tornado = isKind(p, {Kind::TORNADO});
-  const bool wake = isKind(p, {Kind::WAKE});
+  const bool wake = isKind(p, {Kind::WAKE}), markov = isKind(p, {Kind::GAUSS_MARKOV});
   const bool centred = !breeze, radial = isKind(p, {Kind::TORNADO, Kind::BLAST});
   split(true).choice("kind", p.kind, kindNames());
   split(true).number("fade_in", p.fade_in, "s", {0.0, 600.0});
@@ -37,7 +37,7 @@ void visit(const Split& split, Primitive& p) {
   split(disk).number("omega", p.omega, "rad/s", {0.0, 100.0});
   split(disk).number("phase", p.phase, "rad", {-100.0, 100.0});
   split(disk).choice("envelope", p.envelope, {"smooth", "paper"});
-  split(breeze).number("turbulence", p.turbulence, "", TURBULENCE);
+  split(breeze || markov).number("turbulence", p.turbulence, "", TURBULENCE);
   split(breeze).number("length_scale", p.length_scale, "m", {1.0, 1000.0});
   split(gust).number("front_speed", p.front_speed, "m/s", {0.0, 200.0});
   split(gust).number("rise_length", p.rise_length, "m", {0.01, 1e4});
@@ -48,6 +48,10 @@ void visit(const Split& split, Primitive& p) {
   split(radial).number("core_radius", p.core_radius, "m", {0.01, 1e4});
   split(tornado || wake).number("inflow", p.inflow, "", {-2.0, 2.0});
   split(tornado).number("updraft", p.updraft, "", {-2.0, 2.0});
+  // The hashes and archives of other kinds are those from before this field. A reader knows the
+  // kind only now.
+  if (isKind(p, {Kind::GAUSS_MARKOV}))
+    split(true).number("time_scale", p.time_scale, "s", TIME_SCALES);
 }
 
 class Ignore : public FieldVisitor {
@@ -126,8 +130,8 @@ double levelSpeed(const Waypoint& from, const Waypoint& to) {
 }
 
 const std::vector<std::string>& kindNames() {
-  static const std::vector<std::string> NAMES = {"disk",    "breeze", "gust",
-                                                 "tornado", "blast",  "wake"};
+  static const std::vector<std::string> NAMES = {"disk",  "breeze", "gust",        "tornado",
+                                                 "blast", "wake",   "gauss_markov"};
   return NAMES;
 }
 
@@ -149,6 +153,7 @@ void check(Primitive p, Faults& faults) {
   FieldChecker used(context, faults);
   FiniteChecker unused(context, faults);
   visit({used, unused}, p);
+  if (!isKind(p, {Kind::GAUSS_MARKOV})) unused.number("time_scale", p.time_scale, "s", TIME_SCALES);
   checkStamp(context + "epoch", p.epoch, faults);
   checkStamp(context + "t_on", p.t_on, faults);
   checkStamp(context + "t_off", p.t_off, faults);

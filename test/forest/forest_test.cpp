@@ -113,6 +113,32 @@ TEST(Forest, LevelsFollowTheWind) {
   EXPECT_GT(level(0, 0), level(2, 1));
 }
 
+// S1-40: each further wind at a tree requires finer levels; winds that do not reach it change
+// nothing.
+TEST(Forest, LevelsRiseWithTheNumberOfWinds) {
+  std::vector<int> levels;
+  std::vector<wind::Primitive> winds;
+  for (std::uint32_t id = 1; id <= 40; ++id) {
+    winds.push_back(makeDisk(id, Vec3::Zero(), 60.0, Vec3(0.2, 0, 0)));
+    for (const bool far_too : {false, true}) {
+      std::vector<wind::Primitive> all = winds;
+      if (far_too) all.push_back(makeDisk(1000, Vec3(5000, 0, 0), 60.0, Vec3(90, 0, 0)));
+      Forest forest = makeForest(gridLayout(1, 1.0));
+      forest.setWind(wind::Field(all));
+      forest.setViewers({lookFrom(Vec3(-20, 0, 5))});
+      forest.advance(FOREST_START);
+      const int level = forest.view().levels.of(0).level;
+      if (far_too)
+        EXPECT_EQ(level, levels.back()) << id;
+      else
+        levels.push_back(level);
+    }
+  }
+  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
+  EXPECT_LT(levels.front(), levels[9]);
+  EXPECT_LT(levels[9], levels.back());
+}
+
 bool same(const LevelState& a, const LevelState& b) {
   return a.level == b.level && a.since == b.since && a.blend == b.blend;
 }

@@ -85,9 +85,8 @@ TEST(SpeedBound, IsNothingFarAway) {  // S1-22, S1-40
   std::vector<Primitive> sources = oneOfEach();
   sources.erase(sources.begin() + static_cast<int>(Kind::BREEZE));
   const Instant instant = Field(sources).at(at(7.0));
-  ASSERT_EQ(instant.terms.size(), 5u);
+  ASSERT_EQ(instant.terms.size(), 6u);
   EXPECT_EQ(instant.speedBound(Vec3(300.0, 0.0, 0.0), 5.0), 0.0);
-  EXPECT_EQ(instant.influences(Vec3(300.0, 0.0, 0.0), 5.0), 0);
   EXPECT_GT(instant.speedBound(instant.terms[0].centre, 5.0), 0.0);
 }
 
@@ -107,25 +106,17 @@ TEST(SpeedBound, SeesAGustOneSecondAhead) {  // S1-40
   EXPECT_EQ(instant.speedBound(Vec3(55.0, 12.0, 0.0), 1.0), 0.0);
 }
 
-TEST(Influences, CountsTheSourcesThatReach) {  // S1-40
+TEST(SpeedBound, AddsTheSourcesThatReach) {  // S1-40
   Primitive near = printedDisk(), far = printedDisk(), breeze = example(Kind::BREEZE, "breeze");
   far.id = 2;
   far.name = "far";
   far.trajectory = {{0, Vec3(50.0, 0.0, 0.0)}};
   breeze.id = 3;
+  breeze.turbulence = 0.0;
   const Instant instant = Field({near, far, breeze}).at(at(0.3));
-  EXPECT_EQ(instant.influences(Vec3(0.0, 0.0, 0.0), 1.0), 2);
-  EXPECT_EQ(instant.influences(Vec3(25.0, 0.0, 0.0), 1.0), 1);
-  EXPECT_EQ(instant.influences(Vec3(25.0, 0.0, 0.0), 16.0), 3);
-}
-
-TEST(Influences, DoNotCountABreezeThatHasEnded) {  // S1-40
-  Primitive breeze = example(Kind::BREEZE);
-  breeze.t_off = at(2.0);
-  const Field field({breeze});
-  EXPECT_EQ(field.at(at(1.0)).influences(Vec3::Zero(), 1.0), 1);
-  EXPECT_EQ(field.at(at(2.0)).influences(Vec3::Zero(), 1.0), 0);
-  EXPECT_TRUE(field.at(at(2.0)).modes.empty());
+  EXPECT_EQ(instant.speedBound(Vec3(0.0, 0.0, 0.0), 0.0), 10.0);
+  EXPECT_EQ(instant.speedBound(Vec3(25.0, 0.0, 0.0), 1.0), 5.0);
+  EXPECT_EQ(instant.speedBound(Vec3(25.0, 0.0, 0.0), 20.0), 10.0);  // 5 m into both: a half each
 }
 
 TEST(Instant, LeavesOutWhatHasFadedAway) {  // S1-40

@@ -72,6 +72,10 @@ const std::vector<NumberCase> NUMBERS = {
     {"plateau_length", Kind::WAKE, [](Primitive& p) -> double& { return p.plateau_length; }, 0.0,
      1e4},
     {"decay_length", Kind::WAKE, [](Primitive& p) -> double& { return p.decay_length; }, 0.01, 1e4},
+    {"turbulence", Kind::GAUSS_MARKOV, [](Primitive& p) -> double& { return p.turbulence; }, 0.0,
+     1.0},
+    {"time_scale", Kind::GAUSS_MARKOV, [](Primitive& p) -> double& { return p.time_scale; }, 0.1,
+     600.0},
     {"updraft", Kind::TORNADO, [](Primitive& p) -> double& { return p.updraft; }, -2.0, 2.0}};
 
 class EveryNumber : public testing::TestWithParam<NumberCase> {};

@@ -52,7 +52,7 @@ TEST_P(EveryKind, IsTwiceDifferentiableInSpace) {  // E1, S1-W1
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::Range(0, 6), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::Range(0, 7), [](const auto& info) {
   return kindNames()[static_cast<std::size_t>(info.param)];
 });
 

@@ -52,11 +52,10 @@ struct Instant {
   /// precision.
   Instant relativeTo(const Vec3& origin) const;
   /// Returns a bound on the speed that any point within `reach` [m] (horizontally) of `position`
-  /// meets over a cycle of the primitives. Levels of detail depend on it, so it ignores momentary
-  /// zeros of a sine.
+  /// meets over a cycle of the primitives, the sum of those that reach it. Levels of detail depend
+  /// on it, so it ignores momentary zeros of a sine, and each further wind makes them finer
+  /// (S1-40).
   double speedBound(const Vec3& position, double reach) const;
-  /// Returns the number of primitives that can move anything within `reach` of `position` (S1-40).
-  int influences(const Vec3& position, double reach) const;
 };
 
 }  // namespace vegetation_sim::wind

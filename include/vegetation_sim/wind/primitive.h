@@ -12,9 +12,10 @@
 
 namespace vegetation_sim::wind {
 
-enum class Kind { DISK, BREEZE, GUST, TORNADO, BLAST, WAKE };
+enum class Kind { DISK, BREEZE, GUST, TORNADO, BLAST, WAKE, GAUSS_MARKOV };
 
-/// Returns "disk", "breeze", "gust", "tornado", "blast", "wake", in the order of Kind.
+/// Returns "disk", "breeze", "gust", "tornado", "blast", "wake", "gauss_markov", in the order of
+/// Kind.
 const std::vector<std::string>& kindNames();
 
 /// Profile of a disk over the distance d from its centre.
@@ -48,16 +49,19 @@ struct Primitive {
   double orbit_period{60.0};  ///< [s] counter-clockwise
   double repeat{0.0};         ///< gust: period of repetition; 0 = once [s]
 
-  Vec3 velocity{Vec3(5.0, 0.0, 0.0)};  ///< amplitude (disk), mean (breeze), peak (gust) [m/s]
+  /// amplitude (disk), mean (breeze, Gauss-Markov), peak (gust) [m/s]
+  Vec3 velocity{Vec3(5.0, 0.0, 0.0)};
   /// radius of influence; gust: half width; wake: radius of the body; breeze: unused [m]
   double radius{10.0};
   double omega{2.0};                    ///< disk: angular frequency [rad/s]
   double phase{0.0};                    ///< disk: phase psi [rad] (S1-16)
   Envelope envelope{Envelope::SMOOTH};  ///< disk
-  double turbulence{0.2};               ///< breeze: rms of the along-wind fluctuation / mean speed
-  double length_scale{40.0};            ///< breeze: integral length of the turbulence [m]
-  double front_speed{6.0};  ///< gust: speed at which the front moves along `velocity` [m/s]
-  double rise_length{5.0};  ///< gust: length of the front, from nothing to full strength [m]
+  /// breeze, Gauss-Markov: rms of the along-wind fluctuation / mean speed
+  double turbulence{0.2};
+  double time_scale{5.0};     ///< Gauss-Markov: the autocorrelation is exp(-|t| / it) [s]
+  double length_scale{40.0};  ///< breeze: integral length of the turbulence [m]
+  double front_speed{6.0};    ///< gust: speed at which the front moves along `velocity` [m/s]
+  double rise_length{5.0};    ///< gust: length of the front, from nothing to full strength [m]
   /// gust: length at full strength behind the front; wake: length behind the centre that follows
   /// the law of momentum [m]
   double plateau_length{10.0};

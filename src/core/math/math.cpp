@@ -113,6 +113,19 @@ double exponential(double x) {
   return std::ldexp(1.0 + (high + (r * r * s - low)), static_cast<int>(power));
 }
 
+double logarithm(double x) {
+  constexpr double LN2_1 = 6.93147180369123816490e-01, LN2_2 = 1.90821492927058770002e-10;
+  int power = 0;
+  double m = std::frexp(x, &power);  // in [0.5, 1)
+  if (m < 0.70710678118654752440) m *= 2.0, --power;
+  // ln m = 2 artanh s; the series in s^2 <= 0.0295 omits less than 1e-17.
+  const double s = (m - 1.0) / (m + 1.0), square = s * s;
+  double sum = 0.0;
+  for (const double n : {21.0, 19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0})
+    sum = square * (1.0 / n + sum);
+  return power * LN2_1 + (2.0 * s * (1.0 + sum) + power * LN2_2);
+}
+
 double softLimit(double x, double knee, double limit) {
   const double magnitude = std::fabs(x);
   if (magnitude <= knee) return x;

@@ -23,6 +23,7 @@ void visitNumbers(Message& message, Primitive& p, Visit visit) {
   visit(message.phase, p.phase);
   visit(message.turbulence, p.turbulence);
   visit(message.length_scale, p.length_scale);
+  visit(message.time_scale, p.time_scale);
   visit(message.front_speed, p.front_speed);
   visit(message.rise_length, p.rise_length);
   visit(message.plateau_length, p.plateau_length);

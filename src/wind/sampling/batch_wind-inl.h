@@ -167,6 +167,8 @@ HWY_INLINE Lanes3 windAt(const FloatWind& wind, const Lanes3& p) {
         break;
       case wind::Kind::BREEZE:
         break;  // part of mean and modes
+      case wind::Kind::GAUSS_MARKOV:
+        break;  // its terms are disks
     }
   }
   return v;

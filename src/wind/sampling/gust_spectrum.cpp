@@ -7,6 +7,7 @@
 
 #include "vegetation_sim/core/math/math.h"
 #include "wind/fade.h"
+#include "wind/gauss_markov.h"
 #include "wind/laws.h"
 
 namespace vegetation_sim::wind {
@@ -76,10 +77,14 @@ GustSpectrumField::GustSpectrumField(const Field& field, Nanoseconds stamp) {
     Term term;
     if (p.kind == Kind::BREEZE) addBreeze(p, fade(p, stamp), field.breezeOf(i));
     if (!field.termAt(i, stamp, term)) continue;
+    if (p.kind == Kind::GAUSS_MARKOV) {
+      addGaussMarkov(p, fade(p, stamp), term);
+      continue;
+    }
     const bool gust = term.kind == Kind::GUST, disk = term.kind == Kind::DISK;
     has_disks_ |= disk;
     const double onset = gust || disk ? 0.0 : onsetOf(p, stamp);
-    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0, onset});
+    parts_.push_back({term, frequencyOf(field, i, stamp, term), gust ? 0.5 : 1.0, onset, disk});
   }
 }
 
@@ -93,11 +98,31 @@ void GustSpectrumField::addBreeze(const Primitive& p, double weight, const Breez
   }
 }
 
+// Parts are one for the variance of each band, whose share is that of the Lorentzian, and one for
+// what the peaks have beyond them: the steady mean.
+void GustSpectrumField::addGaussMarkov(const Primitive& p, double weight, Term term) {
+  const double speed = length(p.velocity), peak = PEAK * GaussMarkov(p, 0).rms();
+  const auto below = [&](double f) {
+    return 2.0 / PI * arcTangent(2.0 * PI * f * p.time_scale, 1.0);
+  };
+  const auto& frequencies = GustSpectrum::FREQUENCIES;
+  double low = 0.0;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const bool last = i + 1 == frequencies.size();
+    const double high = last ? 1.0 : below(std::sqrt(frequencies[i] * frequencies[i + 1]));
+    term.peak = weight * peak * std::sqrt(high - low);
+    parts_.push_back({term, frequencies[i], 1.0, 0.0, false});
+    low = high;
+  }
+  term.peak = weight * std::sqrt(speed * (speed + 2.0 * peak));
+  parts_.push_back({term, 0.0, 0.0, 0.0, false});
+}
+
 GustSpectrum GustSpectrumField::atOf(const Vec3& position, double reach, bool disks) const {
   GustSpectrum out = breezes_;
   double square = turbulence_;
   for (const Part& part : parts_) {
-    if (part.term.kind == Kind::DISK && !disks) continue;
+    if (part.disk && !disks) continue;
     const double bound = boundOf(part.term, position, reach), speed = part.share * bound;
     square += bound * bound;
     if (speed > 0.0) out.add(part.frequency, 0.0, speed * speed);

@@ -50,8 +50,10 @@ class GustSpectrumField {
     double frequency;
     double share;  // share of its bound that oscillates
     double onset;  // frequency at which half of it starts or ends; 0: it does neither
+    bool disk;     // of paper 1
   };
   void addBreeze(const Primitive& p, double weight, const Breeze& breeze);
+  void addGaussMarkov(const Primitive& p, double weight, Term term);
   GustSpectrum atOf(const Vec3& position, double reach, bool disks) const;
 
   GustSpectrum breezes_;

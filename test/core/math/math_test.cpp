@@ -49,6 +49,16 @@ TEST(Exponential, EndsInZeroAndInfinity) {
   EXPECT_TRUE(std::isnan(exponential(std::nan(""))));
 }
 
+TEST(Math, LogarithmIsThatOfTheLibrary) {
+  for (const double x :
+       {1e-300, 1e-9, 0.3, 0.7071, 0.7072, 0.999999, 1.0, 1.000001, 1.5, 2.0, 9e8}) {
+    const double want = std::log(x);
+    ASSERT_NEAR(logarithm(x), want, 4e-16 * std::max(1.0, std::fabs(want))) << x;
+  }
+  EXPECT_EQ(logarithm(1.0), 0.0);
+  EXPECT_NEAR(logarithm(exponential(3.0)), 3.0, 1e-15);
+}
+
 TEST(SinCosTurns, IsExactAtQuarterTurns) {
   EXPECT_EQ(sinCosTurns(0.0).sin, 0.0);
   EXPECT_EQ(sinCosTurns(0.25).sin, 1.0);

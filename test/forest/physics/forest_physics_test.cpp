@@ -91,5 +91,43 @@ TEST(Memory, OneGrabIn256TreesGivesAllBack) {
               during.branches, during.bytes, held, left);
 }
 
+struct Held {
+  std::size_t branches, reported, archived;
+  long live;
+};
+
+// Returns what a tree with all branches down to a depth physical holds.
+Held holdDepth(int depth) {
+  PhysicsSettings settings;
+  settings.promotion = Promotion::DEPTH;
+  PhysicsRig rig(settings);
+  const auto archived = static_cast<long>(rig.forest.archived().size());
+  const long before = liveBytes();
+  rig.touch(rig.branchOfDepth(depth), 10.0);
+  rig.run(1.0);
+  const PhysicsFigures figures = rig.forest.physicsFigures();
+  const long live = liveBytes() - before;
+  return {figures.branches, figures.bytes, rig.forest.archived().size() - archived, live};
+}
+
+// S1-34: what one more physical branch costs. The rest of what a touched tree holds is its grown
+// tree and the scratch memory of steps, which do not depend on the number of physical branches.
+TEST(Memory, APhysicalBranchHasItsStatedBytes) {
+  const Held few = holdDepth(1), many = holdDepth(PhysicsRig().tree.skeleton.depths() - 1);
+  ASSERT_GT(many.branches, few.branches + 100);
+  const auto more = static_cast<double>(many.branches - few.branches);
+  const double reported = static_cast<double>(many.reported - few.reported) / more;
+  const double live = static_cast<double>(many.live - few.live) / more;
+  const double archived = static_cast<double>(many.archived - few.archived) / more;
+  std::printf(
+      "a physical branch: %.0f bytes reported, %.0f with scratch memory, %.0f archived; "
+      "%zu and %zu branches\n",
+      reported, live, archived, few.branches, many.branches);
+  EXPECT_EQ(sizeof(physics::Vec2) * 2, 4 * sizeof(double));  // the state of a joint
+  EXPECT_LT(reported, 500.0);
+  EXPECT_LT(live, 1600.0);
+  EXPECT_LT(archived, 75.0);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest

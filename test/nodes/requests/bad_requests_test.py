@@ -32,7 +32,7 @@ WALKER = AgentSpawn(position=Point(1.0, 1.0, 0.0), goal=Point(2.0, 2.0, 0.0), ha
                     **given(speed=1.0, radius=0.3, height=1.7))
 SOURCE = dict(id=0, fade_in=1.0, fade_out=1.0, trajectory=[PLACE], orbit_radius=1.0, orbit_period=10.0,
               radius=5.0, velocity=Vector3(2.0, 0.0, 0.0), omega=2.0, speed=5.0, core_radius=1.0,
-              length_scale=10.0, front_speed=3.0, rise_length=1.0, plateau_length=1.0,
+              length_scale=10.0, time_scale=4.0, front_speed=3.0, rise_length=1.0, plateau_length=1.0,
               decay_length=1.0)
 CENTRE = 'trajectory', 'orbit_radius', 'orbit_period'
 GUST = 'front_speed', 'rise_length', 'plateau_length', 'decay_length', 'repeat'
@@ -42,7 +42,8 @@ KINDS = {WindPrimitive.DISK: ('velocity', 'radius', 'omega', 'phase', 'envelope'
          WindPrimitive.GUST: ('velocity', 'radius') + GUST + CENTRE,
          WindPrimitive.TORNADO: ('radius', 'speed', 'core_radius', 'inflow', 'updraft') + CENTRE,
          WindPrimitive.BLAST: ('radius', 'speed', 'core_radius') + CENTRE,
-         WindPrimitive.WAKE: ('radius', 'inflow', 'plateau_length', 'decay_length') + CENTRE}
+         WindPrimitive.WAKE: ('radius', 'inflow', 'plateau_length', 'decay_length') + CENTRE,
+         WindPrimitive.GAUSS_MARKOV: ('velocity', 'radius', 'turbulence', 'time_scale') + CENTRE}
 OF_ALL_KINDS = 'kind', 'attached_frame', 'fade_in', 'fade_out'
 
 

@@ -27,16 +27,17 @@ NAN, INF = float('nan'), float('inf')
 
 # Each field with the kinds that use it and values outside its range.
 NUMBERS = [
-    ('fade_in', [0, 1, 2, 3, 4, 5], [-0.1, 601.0]),
-    ('fade_out', [0, 1, 2, 3, 4, 5], [-0.1, 601.0]),
-    ('orbit_radius', [0, 2, 3, 4, 5], [-1.0, 1.1e5]),
-    ('orbit_period', [0, 2, 3, 4, 5], [-1.0, 1.1e6]),
+    ('fade_in', [0, 1, 2, 3, 4, 5, 6], [-0.1, 601.0]),
+    ('fade_out', [0, 1, 2, 3, 4, 5, 6], [-0.1, 601.0]),
+    ('orbit_radius', [0, 2, 3, 4, 5, 6], [-1.0, 1.1e5]),
+    ('orbit_period', [0, 2, 3, 4, 5, 6], [-1.0, 1.1e6]),
     ('repeat', [2], [-1.0, 1.1e6]),
-    ('radius', [0, 2, 3, 4, 5], [0.0, 1.1e5]),
+    ('radius', [0, 2, 3, 4, 5, 6], [0.0, 1.1e5]),
     ('omega', [0], [-1.0, 101.0]),
     ('phase', [0], [-101.0, 101.0]),
-    ('turbulence', [1], [-0.1, 1.1]),
+    ('turbulence', [1, 6], [-0.1, 1.1]),
     ('length_scale', [1], [0.5, 1001.0]),
+    ('time_scale', [6], [0.0, 601.0]),
     ('front_speed', [2], [-1.0, 201.0]),
     ('rise_length', [2], [0.0, 1.1e4]),
     ('plateau_length', [2, 5], [-1.0, 1.1e4]),
@@ -51,7 +52,7 @@ NUMBERS = [
 def primitive(kind=WindPrimitive.DISK, name='asked', **fields):
     """Returns a valid request, apart from the given fields."""
     out = WindPrimitive(name=name, kind=kind, fade_in=0.5, fade_out=0.5, radius=8.0, omega=2.0,
-                        length_scale=30.0, front_speed=5.0, rise_length=3.0, decay_length=9.0,
+                        length_scale=30.0, time_scale=5.0, front_speed=5.0, rise_length=3.0, decay_length=9.0,
                         speed=7.0, core_radius=2.0)
     out.velocity.x = 5.0
     for field, value in fields.items():
@@ -101,7 +102,7 @@ class WindRequests(unittest.TestCase):
         self.assertEqual(self.field().header.frame_id, 'map')
 
     def test_takes_one_of_each_kind(self):
-        for kind in range(6):
+        for kind in range(7):
             answer = self.set(primitive(kind, 'new_%d' % kind, orbit_radius=1.0, orbit_period=9.0))
             self.assertTrue(answer.success, answer.message)
             self.assertEqual(self.last('new_%d' % kind).id, answer.id)

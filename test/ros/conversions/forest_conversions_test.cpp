@@ -116,6 +116,17 @@ forest::PromotedBranch bent(int branch, Nanoseconds blend) {
   return {branch, {0.1, -1.0 / 3.0}, {5.0 / 7.0, -1e-9}, blend};
 }
 
+// S1-34: a physical branch takes 44 bytes of a message: four numbers, its index and the start of
+// its blend.
+TEST(ForestMessages, APhysicalBranchHasItsStatedBytes) {
+  ForestState state;
+  state.trees.resize(1);
+  const std::uint32_t none = ros::serialization::serializationLength(state);
+  state.trees[0].promoted.resize(58);
+  EXPECT_EQ(ros::serialization::serializationLength(state) - none, 58u * 44u);
+  EXPECT_EQ(44u, 4 * sizeof(double) + sizeof(std::uint32_t) + 8u);
+}
+
 TEST(ForestConversions, ReturnPhysicalBranchesToTheBit) {  // S1-34, S1-37
   forest::StateUpdate update;
   update.blend = 0.7;

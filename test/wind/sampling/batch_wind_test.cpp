@@ -61,7 +61,7 @@ TEST_P(BatchWindOf, HasTheSameBitsOnEveryInstructionSet) {  // N6
   forceInstructionSet("");
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, BatchWindOf, testing::Range(0, 6), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Kinds, BatchWindOf, testing::Range(0, 7), [](const auto& info) {
   return wind::kindNames()[static_cast<std::size_t>(info.param)];
 });
 

@@ -32,6 +32,9 @@ double cubeRoot(double x);
 /// Returns e^x: 0 below -745 and infinity above 709. Relative error <= 4e-16.
 double exponential(double x);
 
+/// Returns the natural logarithm of a finite x > 0. Error <= 4e-16 max(1, |ln x|).
+double logarithm(double x);
+
 /// Clamps to [0, 1].
 inline double saturate(double x) {
   return std::min(1.0, std::max(0.0, x));
