@@ -66,6 +66,16 @@ void checkPlace(const char* context, const Point& place) {
   faults.throwIfAny();
 }
 
+// States without noise of the speed have the hashes of recordings from before there was any.
+class SettingsHasher : public FieldHasher {
+ public:
+  using FieldHasher::FieldHasher;
+  void number(const char* name, double& value, const char* unit, Range range) override {
+    if (value != 0.0 || std::string(name) != "noise_speed")
+      FieldHasher::number(name, value, unit, range);
+  }
+};
+
 }  // namespace
 
 void describe(FieldVisitor& v, Area& a) {
@@ -80,7 +90,7 @@ std::uint64_t CrowdSnapshot::hash() const {
   hash.add(static_cast<std::uint64_t>(stamp));
   hash.add(std::uint64_t{begun});
   hash.add(seed);
-  FieldHasher hasher(hash);
+  SettingsHasher hasher(hash);
   CrowdSettings s = settings;
   Area a = area;
   describe(hasher, s);

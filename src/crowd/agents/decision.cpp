@@ -19,8 +19,9 @@ constexpr double SIDE_KEPT = 0.35;        ///< relative squared cost of the othe
 constexpr double CREEP = 0.15;            ///< share of the speed that remains in a throng
 constexpr double WARNING = 2.0;  ///< time before a robot arrives from which on it is evaded [s]
 constexpr double HURRY = 1.4;    ///< factor on the speed out of a robot's way
-constexpr double WOBBLE_PERIOD = 2.5;     ///< period of the smooth noise [s]
-constexpr double WOBBLE_DEVIATION = 0.3;  ///< standard deviation of gradientNoise()
+constexpr double WOBBLE_PERIOD = 2.5;                    ///< period of the smooth noise [s]
+constexpr double WOBBLE_DEVIATION = 0.3;                 ///< standard deviation of gradientNoise()
+constexpr std::uint64_t KEY_OF_SPEED = 0x5350454544ULL;  ///< makes its noise another one
 
 // Angles of the fan to the left; [0] is straight ahead.
 constexpr int FAN = 9;
@@ -76,12 +77,18 @@ Command evade(const Walker& walker, const View& view, const Wish& wish) {
   return out;
 }
 
+// Returns a smooth noise of time with this standard deviation.
+double wobbleOf(double deviation, std::uint64_t key, Nanoseconds stamp) {
+  const double seconds = static_cast<double>(stamp) * 1e-9;
+  return deviation * gradientNoise(key, seconds / WOBBLE_PERIOD) / WOBBLE_DEVIATION;
+}
+
 }  // namespace
 
-double noiseAt(const CrowdSettings& s, double distance) {
+double noiseAt(const CrowdSettings& s, double most, double distance) {
   const double share = saturate(distance / s.sensor_range);
-  if (s.noise == NoiseLaw::GROWING) return s.noise_heading * share;
-  return s.noise_heading / std::max(share, 1.0 / LARGEST_PRINTED);
+  if (s.noise == NoiseLaw::GROWING) return most * share;
+  return most / std::max(share, 1.0 / LARGEST_PRINTED);
 }
 
 double normalNumber(std::uint64_t key, std::uint64_t index) {
@@ -100,9 +107,8 @@ Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings
   if (isThreatened(walker, view, wish.speed * wish.direction)) return evade(walker, view, wish);
   Command out{wish.direction, wish.speed};
   if (!(wish.speed > 0.0)) return out;
-  const double seconds = static_cast<double>(stamp) * 1e-9;
-  const double wobble = noiseAt(s, view.count > 0 ? view.at(0).gap : s.sensor_range) *
-                        gradientNoise(walker.key, seconds / WOBBLE_PERIOD) / WOBBLE_DEVIATION;
+  const double gap = view.count > 0 ? view.at(0).gap : s.sensor_range;
+  const double wobble = wobbleOf(noiseAt(s, s.noise_heading, gap), walker.key, stamp);
   const Point ahead =
       s.noise_heading > 0.0 ? turned(wish.direction, sinCos(wobble)) : wish.direction;
   const double seen = s.sensor_range, far = HORIZON * seen, bonus = std::min(0.0, s.handedness);
@@ -132,7 +138,11 @@ Command decideByGoal(const Walker& walker, const View& view, const CrowdSettings
     out.direction = direction;
   }
   side = taken;
-  out.speed = std::min(wish.speed, std::max(free / STOPPING, CREEP * wish.speed));
+  double wanted = wish.speed;
+  if (s.noise_speed > 0.0)
+    wanted = noisySpeed(wanted,
+                        wobbleOf(noiseAt(s, s.noise_speed, gap), walker.key ^ KEY_OF_SPEED, stamp));
+  out.speed = std::min(wanted, std::max(free / STOPPING, CREEP * wanted));
   return out;
 }
 

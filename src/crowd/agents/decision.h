@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "crowd/agents/perception.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -24,10 +26,15 @@ inline Point turned(const Point& v, const SinCos& by) {
   return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
 }
 
-/// Returns the standard deviation of the heading's noise at a distance [rad]: from 0 at contact to
-/// the maximum at the sensor's range; or as printed its inverse, limited to ten times the maximum
-/// (S2-33, E7).
-double noiseAt(const CrowdSettings& settings, double distance);
+/// Returns the standard deviation of a noise at a distance: from 0 at contact to `most` at the
+/// sensor's range; or as printed its inverse, limited to ten times `most` (S2-33, E7). @param most
+/// `noise_heading` or `noise_speed`.
+double noiseAt(const CrowdSettings& settings, double most, double distance);
+
+/// Returns a speed with noise, which never reverses or more than doubles it. @param noise relative.
+inline double noisySpeed(double speed, double noise) {
+  return speed * (1.0 + std::min(1.0, std::max(-1.0, noise)));
+}
 
 /// Returns a nearly normal random number with mean 0 and variance 1: the sum of eight uniform ones.
 double normalNumber(std::uint64_t key, std::uint64_t index);

@@ -18,6 +18,7 @@ void describe(FieldVisitor& v, CrowdSettings& s) {
   v.choice("behaviour", s.behaviour, {"goal", "paper"});
   v.choice("noise", s.noise, {"growing", "printed"});
   v.number("noise_heading", s.noise_heading, "rad", {0.0, 1.5});
+  v.number("noise_speed", s.noise_speed, "", {0.0, 1.0});
   v.number("sensor_range", s.sensor_range, "m", {0.5, 20.0});
   v.integer("neighbours", s.neighbours, "", {1, 8});
   v.number("commitment", s.commitment, "s", {0.0, 10.0});

@@ -25,6 +25,7 @@ struct CrowdSettings {
   Behaviour behaviour{Behaviour::GOAL};
   NoiseLaw noise{NoiseLaw::GROWING};
   double noise_heading{0.15};  ///< standard deviation at the sensor's range [rad]
+  double noise_speed{0.0};     ///< likewise of the speed, as a share of it
   double sensor_range{3.0};    ///< range between outlines [m]
   int neighbours{3};           ///< number of obstacles in a decision; PAPER uses one
   double commitment{1.0};      ///< time for which a side once chosen is kept [s]

@@ -106,6 +106,7 @@ void toConfig(const crowd::CrowdSettings& s, AgentCrowdConfig& c) {
   c.sensor_range = s.sensor_range;
   c.neighbours = s.neighbours;
   c.noise_heading = s.noise_heading;
+  c.noise_speed = s.noise_speed;
   c.commitment = s.commitment;
   c.handedness = s.handedness;
   c.slowest = s.slowest;
@@ -125,6 +126,7 @@ crowd::CrowdSettings fromConfig(const AgentCrowdConfig& c, const crowd::CrowdSet
   s.sensor_range = c.sensor_range;
   s.neighbours = c.neighbours;
   s.noise_heading = c.noise_heading;
+  s.noise_speed = c.noise_speed;
   s.commitment = c.commitment;
   s.handedness = c.handedness;
   s.slowest = c.slowest;

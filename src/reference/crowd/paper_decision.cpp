@@ -7,7 +7,8 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double LARGEST_TURN = 1.4;  // at contact [rad]
+constexpr double LARGEST_TURN = 1.4;                     // at contact [rad]
+constexpr std::uint64_t KEY_OF_SPEED = 0x5350454544ULL;  // makes its noise another one
 
 }  // namespace
 
@@ -23,7 +24,11 @@ Command decideByPaper(const Walker& walker, const View& view, const CrowdSetting
     turn = (left < 0.0 ? 1.0 : -1.0) * LARGEST_TURN * near;
     out.speed *= std::max(s.slowest, 1.0 - near);
   }
-  turn += noiseAt(s, distance) * normalNumber(walker.key, static_cast<std::uint64_t>(stamp));
+  const auto draw = static_cast<std::uint64_t>(stamp);
+  turn += noiseAt(s, s.noise_heading, distance) * normalNumber(walker.key, draw);
+  if (s.noise_speed > 0.0)
+    out.speed = noisySpeed(out.speed, noiseAt(s, s.noise_speed, distance) *
+                                          normalNumber(walker.key ^ KEY_OF_SPEED, draw));
   out.direction = turned(wish.direction, sinCos(turn));
   return out;
 }

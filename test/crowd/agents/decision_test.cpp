@@ -56,13 +56,68 @@ TEST(Decision, TurnsAwayFromTheObstaclesSide) {
 // S2-33, E7: calm at contact, and the printed form the other way round.
 TEST(Decision, NoiseGrowsWithTheDistance) {
   CrowdSettings settings;
-  EXPECT_EQ(noiseAt(settings, 0.0), 0.0);
-  EXPECT_EQ(noiseAt(settings, settings.sensor_range), settings.noise_heading);
-  EXPECT_LT(noiseAt(settings, 0.1 * settings.sensor_range), noiseAt(settings, 1.0));
+  const double most = 0.15, range = settings.sensor_range;
+  EXPECT_EQ(noiseAt(settings, most, 0.0), 0.0);
+  EXPECT_EQ(noiseAt(settings, most, range), most);
+  EXPECT_LT(noiseAt(settings, most, 0.1 * range), noiseAt(settings, most, 1.0));
   settings.noise = NoiseLaw::PRINTED;
-  EXPECT_GT(noiseAt(settings, 0.1 * settings.sensor_range), noiseAt(settings, 1.0));
-  EXPECT_EQ(noiseAt(settings, settings.sensor_range), settings.noise_heading);
-  EXPECT_TRUE(std::isfinite(noiseAt(settings, 0.0)));
+  EXPECT_GT(noiseAt(settings, most, 0.1 * range), noiseAt(settings, most, 1.0));
+  EXPECT_EQ(noiseAt(settings, most, range), most);
+  EXPECT_TRUE(std::isfinite(noiseAt(settings, most, 0.0)));
+}
+
+struct Spread {
+  double speed{0.0}, heading{0.0}, together{0.0};  ///< variances, and their correlation
+};
+
+// Spread of the commands of 4000 instants, which are farther apart than the smooth noise of GOAL is
+// long, beside an obstacle at a distance.
+Spread spreadOf(const CrowdSettings& settings, double gap) {
+  constexpr int COUNT = 4000;
+  double v = 0.0, vv = 0.0, a = 0.0, aa = 0.0, va = 0.0;
+  for (int i = 0; i < COUNT; ++i) {
+    const Nanoseconds stamp = fromSeconds(5.217) * i;
+    int side = 0;
+    const View view = facing(gap, {0.0, 1.0});
+    const Command c = settings.behaviour == Behaviour::PAPER
+                          ? decideByPaper({}, view, settings, EAST, stamp)
+                          : decideByGoal({}, view, settings, EAST, stamp, side);
+    const double angle = arcTangent(c.direction.y, c.direction.x);
+    v += c.speed / COUNT;
+    vv += c.speed * c.speed / COUNT;
+    a += angle / COUNT;
+    aa += angle * angle / COUNT;
+    va += c.speed * angle / COUNT;
+  }
+  Spread out{vv - v * v, aa - a * a, va - v * a};
+  out.together /= std::sqrt(std::max(1e-30, out.speed * out.heading));
+  return out;
+}
+
+// S2-33: the noise is on speed and heading, each with a draw of its own, and grows with the
+// distance of the nearest obstacle.
+TEST(Decision, TheSpeedScattersToo) {
+  for (const Behaviour behaviour : {Behaviour::PAPER, Behaviour::GOAL}) {
+    CrowdSettings settings = quiet();
+    settings.behaviour = behaviour;
+    EXPECT_NEAR(spreadOf(settings, 2.9).speed, 0.0, 1e-12);
+    settings.noise_speed = 0.2;
+    settings.noise_heading = 0.2;
+    const Spread far = spreadOf(settings, settings.sensor_range - 1e-9);
+    // The smooth noise of GOAL counts as 0.3, but it deviates by the root of 0.0792.
+    const double part = behaviour == Behaviour::PAPER ? 1.0 : 0.0792 / 0.09;
+    const double expected = part * 0.2 * EAST.speed * 0.2 * EAST.speed;
+    EXPECT_NEAR(far.speed, expected, 0.1 * expected);
+    EXPECT_NEAR(far.heading, part * 0.04, part * 0.004);
+    EXPECT_NEAR(far.together, 0.0, 0.06);  // 4 sigma
+    EXPECT_LT(spreadOf(settings, 0.3).speed, 0.1 * expected);
+  }
+}
+
+TEST(Decision, NoSpeedIsReversedByItsNoise) {
+  EXPECT_EQ(noisySpeed(1.2, -3.0), 0.0);
+  EXPECT_EQ(noisySpeed(1.2, 7.0), 2.4);
+  EXPECT_EQ(noisySpeed(1.2, 0.0), 1.2);
 }
 
 // S2-33, E7: the command's own spread.
@@ -131,6 +186,19 @@ TEST(Decision, StandingWalkersLeaveARobotsWay) {
   EXPECT_GT(std::fabs(command.direction.y), 0.5);
   view.sights[0].velocity = {-1.5, 0.0};  // it goes away
   EXPECT_EQ(decideByGoal({}, view, settings, stand, 0, side).speed, 0.0);
+}
+
+// S2-33: a setting of the speed's noise is part of the state, and 0 leaves states as they were.
+TEST(Decision, NoiseOfTheSpeedChangesTheHashOnlyIfThereIsAny) {
+  CrowdSettings settings;
+  const std::uint64_t without = crowdedRoom(1, settings).snapshot().hash();
+  settings.noise_speed = 0.1;
+  Crowd noisy = crowdedRoom(1, settings), quiet = crowdedRoom(1, CrowdSettings());
+  EXPECT_NE(noisy.snapshot().hash(), without);
+  EXPECT_EQ(Crowd::readArchived(noisy.archived()).settings.noise_speed, 0.1);
+  run(noisy, 2.0, 1.0 / 30.0);
+  run(quiet, 2.0, 1.0 / 30.0);
+  EXPECT_GT(length(noisy.walkers()[0].position - quiet.walkers()[0].position), 0.01);
 }
 
 }  // namespace

@@ -134,7 +134,8 @@ class RampWalkers(unittest.TestCase):
             climbed, along = (ramp.way(walker, 3, 8) for walker in (CLIMBS_BESIDE, ALONG_BESIDE))
             tobler = math.exp(3.5 * (0.05 - abs(RISE + 0.05)))
             self.assertAlmostEqual(climbed / along, tobler, delta=0.02)
-            self.assertLess(ramp.way(CLIMBS, 3, 8), 0.95 * climbed)
+            # A climber's own treads, of half a metre ahead, leave little of the grass before it.
+            self.assertLess(ramp.way(CLIMBS, 3, 8), climbed - 0.02)
 
     def test_grass_slows_people_until_it_is_trodden(self):
         ahead, behind = self.body.way(ALONG, 1, 6), self.body.way(FOLLOWS, 1 + WALK, 6 + WALK)
