@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/forest/forest_display.h"
 
+#include <algorithm>
 #include <array>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -52,6 +53,8 @@ void ForestDisplay::open() {
   source_ =
       std::make_unique<SubscribedForest>(ReplicaOptions(), SubscribedForest::FineModes::ONE_BY_ONE);
   source_->subscribe(update_nh_, properties_->topics());
+  if (!properties_->grabsTopic().empty())
+    grabs_ = update_nh_.subscribe(properties_->grabsTopic(), 1, &ForestDisplay::takeGrabs, this);
   forest_ = std::make_unique<view::ForestVisual>(*scene_node_);
   layouts_ = 0;
 }
@@ -61,7 +64,16 @@ void ForestDisplay::close() {
   shared_light_.reset();
   lit_ = -1;
   forest_.reset();
+  grabs_.shutdown();
+  held_.clear();
   source_.reset();
+}
+
+void ForestDisplay::takeGrabs(const GrabStatuses& message) {
+  held_.clear();
+  for (const GrabStatus& status : message.held)
+    held_[status.grab.tree].push_back(static_cast<int>(status.grab.branch));
+  for (auto& entry : held_) std::sort(entry.second.begin(), entry.second.end());
 }
 
 std::optional<std::string> ForestDisplay::frame() const {
@@ -91,8 +103,9 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
     layouts_ = source_->layouts();
     forest_->restart(source_->replica(), view, properties_->options());
   }
-  forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(),
-                  properties_->options());
+  view::ForestVisual::Options options = properties_->options();
+  options.held = held_;
+  forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(), options);
   if (forest_->treeSet() == nullptr) return;
   shareLight();
   if (!properties_->ground()) return;

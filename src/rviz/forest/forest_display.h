@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ros/subscriber.h>
+#include <vegetation_sim/GrabStatuses.h>
+
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ros/replicas/subscribed_forest.h"
 #include "rviz/forest/forest_properties.h"
@@ -44,9 +49,12 @@ class ForestDisplay : public SceneryDisplay {
   void makeGround();
   void makeShadows();
   void shareLight();
+  void takeGrabs(const GrabStatuses& message);
 
   std::unique_ptr<view::ForestProperties> properties_;
   std::unique_ptr<SubscribedForest> source_;
+  ros::Subscriber grabs_;
+  std::map<std::uint32_t, std::vector<int>> held_;  // branches by tree, sorted
   std::unique_ptr<view::ForestVisual> forest_;
   std::unique_ptr<view::GroundVisual> ground_;
   std::unique_ptr<view::ShadowVisual> shadows_;  // if another display draws the ground

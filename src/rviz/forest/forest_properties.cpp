@@ -4,8 +4,10 @@
 
 #include <rviz/display.h>
 #include <rviz/properties/bool_property.h>
+#include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
+#include <vegetation_sim/GrabStatuses.h>
 
 namespace vegetation_sim::view {
 ForestProperties::ForestProperties(rviz::Display& display) {
@@ -21,6 +23,8 @@ void ForestProperties::addTopics(rviz::Display& display) {
                               display);
   state_ = addTopic<ForestState>("State Topic", "forest/view",
                                  "vegetation_sim/ForestState: which joints move.", display);
+  grabs_ = addTopic<GrabStatuses>("Grabs Topic", "forest/grabs",
+                                  "vegetation_sim/GrabStatuses: which branches are held.", display);
 }
 
 void ForestProperties::addLook(rviz::Display& display) {
@@ -37,10 +41,13 @@ void ForestProperties::addLook(rviz::Display& display) {
   leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
                                    &display);
   flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
-  colour_by_level_ = addFlag("Colour by Level", false,
-                             "Paint branches by their joint: red moves, green is between moving "
-                             "and fixed, blue is physical, bark is fixed.",
-                             display);
+  colours_ = new rviz::EnumProperty("Colours", "natural",
+                                    "By state: branches are painted by their joint: red moves, "
+                                    "green is between moving and fixed, "
+                                    "yellow is held, blue is physical, bark is fixed.",
+                                    &display, SLOT(updateLook()), &display);
+  colours_->addOption("natural", static_cast<int>(TreeColours::NATURAL));
+  colours_->addOption("by state", static_cast<int>(TreeColours::BY_STATE));
   addRate(display, "Trees move");
 }
 
@@ -48,9 +55,14 @@ SubscribedForest::Topics ForestProperties::topics() const {
   return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
 }
 
+std::string ForestProperties::grabsTopic() const {
+  return grabs_->getTopicStd();
+}
+
 ForestVisual::Options ForestProperties::options() const {
   ForestVisual::Options out;
-  out.look = {leaves_->getBool(), flutter_->getBool(), colour_by_level_->getBool()};
+  out.look = {leaves_->getBool(), flutter_->getBool(),
+              static_cast<TreeColours>(colours_->getOptionInt())};
   out.target_triangles = triangles_->getInt();
   out.most_trees = static_cast<std::size_t>(most_trees_->getInt());
   return out;

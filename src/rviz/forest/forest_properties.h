@@ -11,6 +11,7 @@
 namespace rviz {
 class BoolProperty;
 class Display;
+class EnumProperty;
 class FloatProperty;
 class IntProperty;
 class RosTopicProperty;
@@ -26,15 +27,17 @@ class ForestProperties : public SceneryProperties {
   explicit ForestProperties(rviz::Display& display);
 
   SubscribedForest::Topics topics() const;
+  std::string grabsTopic() const;
   ForestVisual::Options options() const;
 
  private:
   void addTopics(rviz::Display& display);
   void addLook(rviz::Display& display);
 
-  rviz::RosTopicProperty *layout_, *wind_, *state_;
+  rviz::RosTopicProperty *layout_, *wind_, *state_, *grabs_;
   rviz::IntProperty *triangles_, *most_trees_;
-  rviz::BoolProperty *leaves_, *flutter_, *colour_by_level_;
+  rviz::BoolProperty *leaves_, *flutter_;
+  rviz::EnumProperty* colours_;
 };
 
 }  // namespace vegetation_sim::view

@@ -237,6 +237,11 @@ void ForestVisual::chooseLevels(const forest::ForestReplica& replica, const View
 // Batches whose stamp has not changed are skipped.
 void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
                         const Options& options) {
+  static const std::vector<int> NONE;
+  const auto heldOf = [&](std::uint32_t tree) -> const std::vector<int>& {
+    const auto found = options.held.find(tree);
+    return found == options.held.end() ? NONE : found->second;
+  };
   const wind::Instant wind = replica.wind().at(stamp);
   report_.moving = 0;
   for (const auto& batch : tree_batches_) {
@@ -247,7 +252,7 @@ void ForestVisual::move(const forest::ForestReplica& replica, Nanoseconds stamp,
       const bool moves = tree->move(replica, stamp, wind, options.look, pixelsOf(*tree, view));
       report_.moving += moves ? 1 : 0;
       moved = moved || moves;
-      painted = tree->paintLevels(replica, stamp, options.look) || painted;
+      painted = tree->paintStates(replica, stamp, options.look, heldOf(tree->id())) || painted;
     }
     if (moved) batch->takePositions();
     if (painted) batch->takePaint();

@@ -35,6 +35,7 @@ class ForestVisual {
  public:
   struct Options {
     TreeLook look;
+    std::map<std::uint32_t, std::vector<int>> held;  ///< branches by tree, sorted
     double target_triangles{80000.0};
     std::size_t most_trees{1000};
   };

@@ -17,7 +17,7 @@ namespace {
 constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
 constexpr double BREATH = 0.15;          // [m/s] slower wind moves no leaf
 constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
-    PHYSICAL{0.10f, 0.35f, 0.90f};
+    PHYSICAL{0.10f, 0.35f, 0.90f}, HELD{0.95f, 0.80f, 0.08f};
 
 std::uint8_t byte(double x) {
   return static_cast<std::uint8_t>(saturate(x) * 255.0 + 0.5);
@@ -75,7 +75,7 @@ void DrawnTree::regrow(const forest::ForestReplica& replica) {
   broken_ = brokenOf(replica.broken(), id_);
   tree_ = replica.grow(id_);
   poser_ = forest::BatchPoser(tree_);
-  painted_by_level_ = false;
+  painted_by_state_ = false;
 }
 
 void DrawnTree::addTo(forest::LightGrid& light) const {
@@ -195,7 +195,7 @@ void DrawnTree::paintBark(const forest::LightGrid& light, Shape& shape) {
     paint.place[1] = vertex.uv[1] / (2.f * BARK_PERIOD);
     paint.place[2] = static_cast<float>(light.sky(at));
   }
-  painted_by_level_ = false;
+  painted_by_state_ = false;
 }
 
 // Normals point out of the crown, so that it is shaded as one round body and not as many cards.
@@ -230,34 +230,39 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
   }
 }
 
-bool DrawnTree::paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp,
-                            const TreeLook& look) {
-  if (level_ < 0 || (!look.colour_by_level && !painted_by_level_)) return false;
+bool DrawnTree::paintStates(const forest::ForestReplica& replica, Nanoseconds stamp,
+                            const TreeLook& look, const std::vector<int>& held) {
+  const bool by_state = look.colours == TreeColours::BY_STATE;
+  if (level_ < 0 || (!by_state && !painted_by_state_)) return false;
   forest::Weights weights{};
-  std::vector<int> physical;
-  if (look.colour_by_level) {
+  std::vector<int> physical, marked;
+  if (by_state) {
     weights = replica.weights(id_, stamp);
     for (const auto& branch : replica.promoted(id_).branches) physical.push_back(branch.branch);
+    marked = held;
   }
-  if (painted_by_level_ && look.colour_by_level && weights == painted_ &&
-      physical == painted_physical_)
+  if (painted_by_state_ && by_state && weights == painted_ && physical == painted_physical_ &&
+      marked == painted_held_)
     return false;
+  const auto contains = [](const std::vector<int>& branches, int branch) {
+    return std::binary_search(branches.begin(), branches.end(), branch);
+  };
   Shape& shape = shapes_.front();
   for (std::size_t i = 0; i < shape.mesh.bark.size(); ++i) {
     const forest::BarkVertex& vertex = shape.mesh.bark[i];
     const int depth = tree_.skeleton.branches[static_cast<std::size_t>(vertex.branch)].depth;
     const double weight = weights[static_cast<std::size_t>(depth)];
-    const bool rests = weight <= 0.0;
-    const bool is_physical = std::binary_search(physical.begin(), physical.end(), vertex.branch);
-    setColour(is_physical    ? PHYSICAL
-              : rests        ? paint_.bark(radiusOf(vertex))
-              : weight < 1.0 ? CHANGES
-                             : MOVES,
+    setColour(contains(marked, vertex.branch)     ? HELD
+              : contains(physical, vertex.branch) ? PHYSICAL
+              : weight <= 0.0                     ? paint_.bark(radiusOf(vertex))
+              : weight < 1.0                      ? CHANGES
+                                                  : MOVES,
               shape.bark.paint[i]);
   }
   painted_ = weights;
   painted_physical_ = std::move(physical);
-  painted_by_level_ = look.colour_by_level;
+  painted_held_ = std::move(marked);
+  painted_by_state_ = by_state;
   return true;
 }
 

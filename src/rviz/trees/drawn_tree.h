@@ -15,12 +15,15 @@
 
 namespace vegetation_sim::view {
 
+/// `BY_STATE` colours bark as figure 4 of paper 1: joints that move red, in transition green, held
+/// branches yellow; other physical ones blue.
+enum class TreeColours : int { NATURAL = 0, BY_STATE = 1 };
+
 /// Settings of the appearance of trees.
 struct TreeLook {
   bool leaves{true};
   bool flutter{true};
-  bool colour_by_level{
-      false};  ///< colours bark by state: moving red, in transition green, physical blue
+  TreeColours colours{TreeColours::NATURAL};
 };
 
 /// One tree as it is drawn: its mesh at one level of detail, with vertex positions and colours. It
@@ -71,7 +74,9 @@ class DrawnTree {
   bool move(const forest::ForestReplica& replica, Nanoseconds stamp, const wind::Instant& wind,
             const TreeLook& look, double pixels_per_metre);
   /// Colours the bark by the state of each joint at `stamp`. Returns false if nothing has changed.
-  bool paintLevels(const forest::ForestReplica& replica, Nanoseconds stamp, const TreeLook& look);
+  /// @param held branches that grabs hold, sorted.
+  bool paintStates(const forest::ForestReplica& replica, Nanoseconds stamp, const TreeLook& look,
+                   const std::vector<int>& held = {});
 
   struct Part {
     std::vector<float> positions;  ///< [3 per vertex], relative to the origin
@@ -109,8 +114,8 @@ class DrawnTree {
   float fades_since_{0.f};
   bool moved_{true};  // the last move() left it away from rest
   forest::Weights painted_{};
-  std::vector<int> painted_physical_;  // branches
-  bool painted_by_level_{false};
+  std::vector<int> painted_physical_, painted_held_;  // branches
+  bool painted_by_state_{false};
 };
 
 }  // namespace vegetation_sim::view

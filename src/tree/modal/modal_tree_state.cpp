@@ -105,19 +105,38 @@ void ModalTreeState::pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses
   poser.pose(bends, out);
 }
 
-void ModalTreeState::interpolateAmplitude(Nanoseconds stamp, std::vector<double>& out) const {
+namespace {
+
+// Factors of values and rates at the ends of an interval in a cubic or one of its derivatives.
+struct Hermite {
+  double before, before_rate, after, after_rate;
+};
+
+void combine(const Hermite& by, const physics::ModalState& before, const physics::ModalState& after,
+             std::vector<double>& out) {
+  out.resize(after.amplitude.size());
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] = by.before * before.amplitude[m] + by.before_rate * before.rate[m] +
+             by.after * after.amplitude[m] + by.after_rate * after.rate[m];
+}
+
+}  // namespace
+
+void ModalTreeState::interpolateMotion(Nanoseconds stamp, ModalMotion& out) const {
   if (stamp_ == before_stamp_) {
-    out = amplitudeAt(stamp);
+    out.amplitude = amplitudeAt(stamp);
+    out.rate = state_.rate;
+    out.acceleration = acceleration_;
     return;
   }
-  const double length = secondsBetween(before_stamp_, stamp_);
-  const double u = secondsBetween(before_stamp_, stamp) / length, v = 1.0 - u;
-  const double a = v * v * (1.0 + 2.0 * u), b = u * v * v * length;
-  const double c = u * u * (1.0 + 2.0 * v), d = -(u * u * v) * length;
-  out.resize(state_.amplitude.size());
-  for (std::size_t m = 0; m < out.size(); ++m)
-    out[m] = a * before_.amplitude[m] + b * before_.rate[m] + c * state_.amplitude[m] +
-             d * state_.rate[m];
+  const double h = secondsBetween(before_stamp_, stamp_);
+  const double u = secondsBetween(before_stamp_, stamp) / h, v = 1.0 - u;
+  const double c = 6.0 * u * v / h, d = 6.0 * (v - u) / (h * h);
+  combine({v * v * (1.0 + 2.0 * u), u * v * v * h, u * u * (1.0 + 2.0 * v), -(u * u * v) * h},
+          before_, state_, out.amplitude);
+  combine({-c, v * (v - 2.0 * u), c, u * (u - 2.0 * v)}, before_, state_, out.rate);
+  combine({-d, (2.0 * u - 4.0 * v) / h, d, (4.0 * u - 2.0 * v) / h}, before_, state_,
+          out.acceleration);
 }
 
 JointAngles bendOf(const ModalTree& modes, const std::vector<double>& amplitude, int branch) {

@@ -41,9 +41,8 @@ std::size_t PhysicalSubtree::promote(const std::vector<int>& branches,
     motions.update(motion, added);
     for (std::size_t i = 0; i < added.size(); ++i) {
       const JointMotion at = motions.at(i);
-      all.push_back({{added[i], stamp, stamp, NEVER, motion.missing(), true},
-                     vectorOf(at.q),
-                     vectorOf(at.rate)});
+      all.push_back(
+          {{added[i], stamp, stamp, NEVER, 1.0, true}, vectorOf(at.q), vectorOf(at.rate)});
     }
     std::sort(all.begin(), all.end(),
               [](const Joined& a, const Joined& b) { return a.joint.branch < b.joint.branch; });
@@ -89,7 +88,7 @@ void PhysicalSubtree::cancelBlend(int link, const ProceduralMotion& motion, doub
     joint.blend = NEVER;
     joint.promoted = stamp;
     last_promoted_ = std::max(last_promoted_, stamp);
-    joint.compensation = weight * motion.missing();
+    joint.compensation = weight;
   }
 }
 

@@ -58,9 +58,13 @@ JointMotion motionOf(const JointAngles& a, const JointAngles& b, const JointAngl
 
 void ModalSamples::sampleAt(const ModalTreeState& at, Nanoseconds stamp) {
   modal_state = &at;
-  for (std::size_t look = 0; look < amplitude.size(); ++look)
-    at.interpolateAmplitude(stamp + (static_cast<Nanoseconds>(look) - 1) * WINDOW_STEP,
-                            amplitude[look]);
+  at.interpolateMotion(stamp, motion);
+  for (std::size_t look = 0; look < amplitude.size(); ++look) {
+    const double ahead = (static_cast<double>(look) - 1.0) * STEP;
+    amplitude[look] = motion.amplitude;
+    for (std::size_t m = 0; m < motion.rate.size(); ++m)
+      amplitude[look][m] += ahead * (motion.rate[m] + 0.5 * ahead * motion.acceleration[m]);
+  }
 }
 
 ProceduralMotion::ProceduralMotion(const Tree& tree, const WindWindow& wind,

@@ -12,10 +12,12 @@
 
 namespace vegetation_sim::forest {
 
-/// Modal amplitudes of a tree at the three stamps of a wind window. Reuses its memory.
+/// Modal amplitudes of a tree at the three stamps of a wind window, by the motion at the middle
+/// one, so that central differences give its rates and accelerations. Reuses its memory.
 struct ModalSamples {
   const ModalTreeState* modal_state{nullptr};
   std::array<std::vector<double>, 3> amplitude;
+  ModalMotion motion;  // at the middle stamp
 
   void sampleAt(const ModalTreeState& at, Nanoseconds stamp);
 };
@@ -38,8 +40,6 @@ struct ProceduralMotion {
                    const MotionLaw& law, const ModalSamples* modal = nullptr);
   /// Returns the weight of the modes at one of the three stamps.
   double modalShare(std::size_t look) const { return modal ? modalWeight(weights[look]) : 0.0; }
-  /// Returns the share of the motion that no dynamics produces: the initial compensation (E1).
-  double missing() const { return 1.0 - modalShare(1); }
   JointMotion at(int branch) const;
 };
 

@@ -175,14 +175,14 @@ TEST(DrawnTree, RestsWhereNothingMovesIt) {
 
 // Paper 1, fig. 4: joints that move, joints in transition and joints at rest have different
 // colours.
-TEST(DrawnTree, IsPaintedByLevel) {
+TEST(DrawnTree, IsPaintedByState) {
   Layout layout = forest::gridLayout(1, 12.0);
   layout.motion.transition = 2.0;
   ForestReplica replica = replicaOf(layout);
   const TreeSet tree_set = grown(replica, {0});
   DrawnTree& tree = *tree_set.trees()[0];
   TreeLook look;
-  look.colour_by_level = true;
+  look.colours = TreeColours::BY_STATE;
   tree.setLevel(forest::GEOMETRY_LEVELS - 1, tree_set.light(), look);
   forest::StateUpdate update;
   update.layout_hash = replica.layoutHash();
@@ -192,8 +192,8 @@ TEST(DrawnTree, IsPaintedByLevel) {
   update.stamp = fromSeconds(10.0);
   update.trees = {entry};
   ASSERT_TRUE(replica.apply(update));
-  ASSERT_TRUE(tree.paintLevels(replica, fromSeconds(11.0), look));
-  EXPECT_FALSE(tree.paintLevels(replica, fromSeconds(11.0), look));
+  ASSERT_TRUE(tree.paintStates(replica, fromSeconds(11.0), look));
+  EXPECT_FALSE(tree.paintStates(replica, fromSeconds(11.0), look));
   int red = 0, green = 0, bark = 0;
   for (const VertexPaint& paint : tree.shapes().front().bark.paint) {
     if (paint.colour[0] > 3 * paint.colour[1])
@@ -206,6 +206,20 @@ TEST(DrawnTree, IsPaintedByLevel) {
   EXPECT_GT(red, 20);
   EXPECT_GT(green, 20);
   EXPECT_GT(bark, 20);
+  // Held branches are yellow, and nothing else changes.
+  ASSERT_TRUE(tree.paintStates(replica, fromSeconds(11.0), look, {0}));
+  EXPECT_FALSE(tree.paintStates(replica, fromSeconds(11.0), look, {0}));
+  const auto& mesh = tree.shapes().front();
+  int yellow = 0;
+  for (std::size_t i = 0; i < mesh.mesh.bark.size(); ++i) {
+    const auto& colour = mesh.bark.paint[i].colour;
+    const bool is_yellow = colour[0] > 3 * colour[2] && colour[1] > 3 * colour[2];
+    EXPECT_EQ(is_yellow, mesh.mesh.bark[i].branch == 0) << i;
+    yellow += is_yellow;
+  }
+  EXPECT_GT(yellow, 4);
+  EXPECT_TRUE(tree.paintStates(replica, fromSeconds(11.0), look));
+  EXPECT_TRUE(tree.paintStates(replica, fromSeconds(11.0), TreeLook()));
 }
 
 TEST(GroundPicture, IsDarkerUnderTreesAndInTheirShadow) {

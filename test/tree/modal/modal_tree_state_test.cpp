@@ -150,9 +150,9 @@ TEST(ModalTreeState, IsSavedRestoredAndHashed) {
   EXPECT_EQ(scene.forest.hash(), hash);
 }
 
-// N13: physics starts from the modal angles and rates without compensation, and moves as the modes
-// while motion is small.
-TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
+// N13, N10: physics starts from the modal angles and rates with compensation, and moves as the
+// modes while motion is small.
+TEST(ModalTreeState, HandsOverToPhysicsWithCompensation) {
   Clearing scene;
   scene.requireOfTheWorld();
   PhysicsSettings physics;
@@ -172,7 +172,7 @@ TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
     ASSERT_FALSE(promoted.branches.empty());
     if (i == 0) {
       for (const SubtreeJoint& joint : scene.forest.snapshot().physics.subtrees().at(0).joints())
-        ASSERT_EQ(joint.compensation, 0.0);
+        ASSERT_EQ(joint.compensation, 1.0);
       for (const PromotedBranch& b : promoted.branches)
         EXPECT_LT(difference(b.q, before[static_cast<std::size_t>(b.branch)]), 0.05);
     }
@@ -186,8 +186,7 @@ TEST(ModalTreeState, HandsOverToPhysicsWithoutCompensation) {
       size += (a[j].position - tree.skeleton.branches[j].rest.position).squaredNorm();
     }
   }
-  std::printf("a second of physics without compensation: %.1f %% off the modes\n",
-              100.0 * std::sqrt(off / size));
+  std::printf("a second of physics: %.1f %% off the modes\n", 100.0 * std::sqrt(off / size));
   EXPECT_LT(std::sqrt(off / size), 0.1);
 }
 

@@ -1,7 +1,7 @@
 // Promotion and demotion.
 #include <gtest/gtest.h>
 
-#include "scenes/forest/physics_scene.h"
+#include "scenes/forest/modal_forest_scene.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -136,6 +136,95 @@ TEST(HandOver, PromotionJumpsNeitherInAngleNorInRate) {
   std::printf("promotion: %.1e rad, %.1e of peak rate\n", worst.angle, worst.rate);
   EXPECT_LT(worst.angle, LARGEST_JUMP);
   EXPECT_LT(worst.rate, 0.01);
+}
+
+/// Four trees in their modes.
+Clearing treesInModes(const PhysicsSettings& physics) {
+  Clearing out;
+  out.requireOfTheWorld();
+  out.forest.setPhysics(physics);
+  out.run(3.0);
+  return out;
+}
+
+Clearing touched(Clearing scene, const Tree& tree, std::uint32_t id, double duration) {
+  Push touch;
+  touch.point = {id, static_cast<int>(tree.skeleton.branches.size()) - 1, 0.0};
+  touch.until = scene.now() + seconds(duration);
+  scene.forest.push(touch);
+  return scene;
+}
+
+/// Returns the angles of the world, physical ones included.
+Angles worldAngles(const Clearing& scene, const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
+  const ForestSnapshot& world = scene.forest.snapshot();
+  const LevelState level = scene.forest.world().levels.of(id);
+  Angles out = modalAngles(tree, world.wind.at(stamp).relativeTo(tree.foot),
+                           weightsAt(level, stamp, scene.forest.layout().motion),
+                           scene.forest.world().modes.find(id), stamp);
+  overlay(scene.forest.promoted(id), stamp, out);
+  return out;
+}
+
+/// Returns the motion right after the last tick, for the limit there. Angles in single precision
+/// have steps of some 1e-9 rad, which are rates of 1e-5 rad/s here.
+Limit motionAfter(const Clearing& scene, const Tree& tree, std::uint32_t id) {
+  constexpr Nanoseconds APART = 500000;
+  const auto at = [&](Nanoseconds after) {
+    Clearing later = scene;
+    later.forest.advance(scene.now() + after);
+    return worldAngles(later, tree, id, scene.now() + after);
+  };
+  return {at(2 * APART), at(APART), 1.0, -APART};
+}
+
+// N10, E1: a whole tree in its modes becomes physical without a jump, at any phase of the wind,
+// with the default fade.
+TEST(HandOver, PromotionFromModesJumpsNeitherInAngleNorInRate) {
+  for (const std::uint32_t id : {0u, 1u, 2u, 3u}) {
+    Clearing scene = treesInModes(allOfIt());
+    ASSERT_GE(scene.forest.world().levels.of(id).level, MODAL_LEVEL);
+    const Tree tree = scene.tree(id);
+    Jump worst;
+    double peak = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      scene.run(0.37);
+      const Limit before = motionAfter(scene, tree, id);
+      worst.add(interpolate(before, motionAfter(touched(scene, tree, id, 1.0), tree, id), 1.0));
+      for (const JointAngles& rate : before.rate) peak = std::max(peak, difference(rate, {}));
+    }
+    std::printf("tree %u: %.1e rad, %.1e of the peak rate, %.2f rad/s\n", id, worst.angle,
+                worst.rate / peak, peak);
+    EXPECT_LT(worst.angle, LARGEST_JUMP);
+    EXPECT_LT(worst.rate, 0.01 * peak);
+  }
+}
+
+// N10, E1: at first a tree from modes moves as before; then the load fades to the real one, and the
+// tree follows full dynamics, which modes approximate.
+TEST(HandOver, FromModesTheMotionIsKeptAtFirst) {
+  for (const std::uint32_t id : {0u, 1u, 2u, 3u}) {
+    Clearing scene = treesInModes(allOfIt());
+    const Tree tree = scene.tree(id);
+    Clearing physical = touched(scene, tree, id, 10.0);
+    double off = 0.0, size = 0.0, first = 0.0;
+    for (int i = 1; i <= 3 * TICK_RATE; ++i) {
+      scene.advance(), physical.advance();
+      const auto a = forwardKinematics(tree, worldAngles(scene, tree, id, scene.now()));
+      const auto b = forwardKinematics(tree, worldAngles(physical, tree, id, scene.now()));
+      for (std::size_t j = 0; j < a.size(); ++j) {
+        const Branch& branch = tree.skeleton.branches[j];
+        off += (tipOf(branch, a[j]) - tipOf(branch, b[j])).squaredNorm();
+        size += (tipOf(branch, a[j]) - tipOf(branch, branch.rest)).squaredNorm();
+      }
+      if (i == TICK_RATE / 10) first = std::sqrt(off / size);
+    }
+    const double last = std::sqrt(off / size);
+    std::printf("tree %u: RMS of all tips off the modes %.2f %% in 0.1 s, %.1f %% in 3 s\n", id,
+                100.0 * first, 100.0 * last);
+    EXPECT_LT(first, 0.01);
+    EXPECT_LT(last, 0.1);
+  }
 }
 
 /// A branch is pulled aside and released; the blend starts in mid-recoil.

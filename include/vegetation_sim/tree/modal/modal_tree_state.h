@@ -22,6 +22,11 @@ struct ModalLoad {
   Vec3 air{Vec3::Zero()};     ///< ModalTree::airOn(), which acts on the lever arms [m/s]
 };
 
+/// Amplitudes of all modes with their first and second derivatives in time.
+struct ModalMotion {
+  std::vector<double> amplitude, rate, acceleration;
+};
+
 /// Modal state of a tree (N13): amplitudes and rates at the last tick. Modes follow from the seed,
 /// loads from the wind law. A value; copies share the modes.
 class ModalTreeState {
@@ -56,8 +61,8 @@ class ModalTreeState {
   std::vector<double> amplitudeAt(Nanoseconds stamp) const;
   /// Poses all branches in single precision, for displays while the modes have all the weight.
   void pose(const BatchPoser& poser, Nanoseconds stamp, BatchPoses& out) const;
-  /// Interpolates amplitudes between the last two ticks by a cubic with their values and rates.
-  void interpolateAmplitude(Nanoseconds stamp, std::vector<double>& out) const;
+  /// Interpolates the motion between the last two ticks by a cubic with their values and rates.
+  void interpolateMotion(Nanoseconds stamp, ModalMotion& out) const;
 
  private:
   void finishStep(const ModalLoad& load, Nanoseconds stamp);
