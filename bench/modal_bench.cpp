@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures the modal tier (N13): error against full dynamics by number of modes, beside the
 // procedural tier and paper 1's dynamics; the first frame of a sudden load; the rotation at which
-// modes cease to hold; levers that turn; cost of finding and of posing.
-// usage: modal_bench [--quick | --full] [--cache FOLDER] [--csv FILE]
-// --full adds trees of 10 000 branches.
+// modes cease to hold; levers that turn; cost of finding and of posing; ticks that start modes.
+// usage: modal_bench [--quick | --full | --ticks] [--cache FOLDER] [--csv FILE]
+// --full adds trees of 10 000 branches, --ticks measures nothing but ticks.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -63,6 +63,9 @@ int run(int argc, char** argv) {
       options.duration = 1.0;
     } else if (!std::strcmp(argv[i], "--full")) {
       options.branches.push_back(10000);
+    } else if (!std::strcmp(argv[i], "--ticks")) {
+      measureTicks();
+      return 0;
     } else if (!std::strcmp(argv[i], "--cache") && i + 1 < argc) {
       options.cache = argv[++i];
     } else if (!std::strcmp(argv[i], "--csv") && i + 1 < argc) {
@@ -85,6 +88,7 @@ int run(int argc, char** argv) {
   measureLimit(fractalTree(std::min(1000, options.branches.back())), options);
   measureBending();
   measurePosing(options.rounds);
+  measureTicks();
   return 0;
 }
 

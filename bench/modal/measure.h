@@ -43,6 +43,8 @@ void measureLimit(const TestTree& tree, const ModalOptions& options);
 void measureBending();
 /// Measures the time to find modes.
 void measureFinding(const TestTree& tree, int rounds);
+/// Measures the ticks of a forest while its trees get modes.
+void measureTicks();
 /// Measures the time to pose branches from modes.
 void measurePosing(int rounds);
 

@@ -10,6 +10,20 @@ inline wind::Field breeze() {
   return wind::Field({makeBreeze(1, Vec3(5.0, 1.0, 0.0))}, 3);
 }
 
+/// Four oaks, the first with so many branches or a few more.
+inline Layout fourOaks(std::size_t branches) {
+  Layout out = gridLayout(2, 12.0);
+  const Species plain = shippedSpecies("oak");
+  Design design;
+  std::size_t grown = 0;
+  for (design.children = 0.3; grown < branches; design.children *= 1.02) {
+    out.species = {applyDesign(plain, design)};
+    for (TreeSeed& seed : out.trees) seed.species = 0;
+    grown = grow(out.trees[0], out.species[0]).branches.size();
+  }
+  return out;
+}
+
 /// Four trees in a breeze, and a sensor that comes and goes.
 struct Clearing {
   static constexpr double PIXELS_PER_METRE = 170.0;

@@ -35,7 +35,11 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   grid_ = TreeGrid(layout_);
   terrain_ = std::move(terrain);
   errors_.measure(layout_, *terrain_);
-  for (TreeDetail* detail : details()) detail->modes.clear();  // the wood may have changed
+  for (TreeDetail* detail : details()) {  // the wood may have changed
+    detail->modes.clear();
+    detail->request.reset();
+  }
+  worker_->clear();
   snapshot_.sensed.offsets.clear();
   snapshot_.view.offsets.clear();
   if (!same_trees)
@@ -150,7 +154,7 @@ void Forest::chooseDetail(Nanoseconds before) {
       1e-6 * settings.budget.physical_cost * static_cast<double>(snapshot_.physics.branchCount());
   const PredictionContext context{
       layout_, *terrain_, snapshot_.wind, settings, errors_, stamp, &snapshot_.physics.broken()};
-  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr};
+  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr, worker_.get()};
   world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
   start.compute = !world_chooser_.hasComputed();
   start.known = &snapshot_.world.modes;
@@ -160,6 +164,10 @@ void Forest::chooseDetail(Nanoseconds before) {
   start.known = nullptr;
   view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical, start,
                        snapshot_.view.trees);
+  std::set<ModesWorker::Key> awaited;
+  for (const DetailChooser* chooser : {&world_chooser_, &sensor_chooser_, &view_chooser_})
+    awaited.insert(chooser->awaited().begin(), chooser->awaited().end());
+  worker_->retain(awaited);
 }
 
 // Returns the angles of all joints at the last tick.
@@ -245,6 +253,11 @@ std::uint64_t Forest::hashOf(const ForestSnapshot& snapshot) const {
   describe(hasher, settings);
   snapshot.world.levels.addTo(out, snapshot.stamp, layout_.motion.transition);
   snapshot.world.modes.addTo(out);
+  if (const auto& request = snapshot.world.request) {
+    out.add(std::uint64_t{request->tree});
+    out.add(std::uint64_t{request->fine});
+    out.add(static_cast<std::uint64_t>(request->due));
+  }
   snapshot.physics.addTo(out);
   return out.value();
 }

@@ -100,6 +100,15 @@ void archive(Archive& a, TreeDetail& detail, std::size_t trees,
   archive(a, detail.changed, trees);
   archive(a, detail.begun, trees);
   a.integer("sequence", detail.sequence);
+  bool is_requested = detail.request.has_value();
+  a.flag("modes requested", is_requested);
+  if (!is_requested) return;
+  ModesRequest request = detail.request.value_or(ModesRequest{});
+  a.integer<std::uint32_t>("requested tree", request.tree, 0,
+                           static_cast<std::uint32_t>(trees) - 1);
+  a.flag("requested fine", request.fine);
+  a.stamp("request due", request.due);
+  detail.request = request;
 }
 
 void archive(Archive& a, const Layout& layout, const Grower& grower, ForestSnapshot& snapshot) {

@@ -10,6 +10,13 @@ namespace {
 
 // Memory for more is released: few scenes have as many near trees.
 constexpr std::size_t MANY_PLANTS = 20000;
+// Time after which the modes of a large tree start, per branch [s]: twice what computing them
+// takes.
+constexpr double PLAIN_DELAY = 2e-5, FINE_DELAY = 1e-4;
+
+double branchesOf(const PredictionContext& context, std::uint32_t tree) {
+  return context.errors.tableOf(seedOf(context.layout, tree)).branches.back();
+}
 
 }  // namespace
 
@@ -71,39 +78,95 @@ void DetailChooser::allocate(const Settings& settings, const DetailDemand& deman
   figures_.budget = budget.frame_time;
 }
 
-// One tree per tick gets plain modes, that with the largest error first; if none does, one gets
-// fine modes at its turn. Other trees wait on their present tier. A tree with fine modes that is to
+// Other trees than those that start wait on their present tier. A tree with fine modes that is to
 // have plain ones returns to its levels until the modes have faded, because the change would be
 // visible.
-void DetailChooser::startModes(const PredictionContext& context, const Start& start,
-                               TreeDetail& detail) {
-  Plant *plain = nullptr, *finer = nullptr;
-  const auto wait = [](Plant& plant, int tier, Plant*& first) {
+DetailChooser::Candidates DetailChooser::findCandidates(const PredictionContext& context,
+                                                        const Start& start,
+                                                        const TreeDetail& detail) {
+  Candidates out;
+  const auto wait = [&](Plant& plant, int tier, bool fine) {
     plant.chosen = tier;
-    if (!first || plant.error[0] > first->error[0]) first = &plant;
+    if (detail.request && detail.request->tree == plant.id && detail.request->fine == fine)
+      out.requested = {&plant, fine};
+    const bool known = start.known && start.known->find(plant.id, fine);
+    Candidate& first = !known && branchesOf(context, plant.id) > LARGE ? out.large
+                       : fine                                          ? out.finer
+                                                                       : out.plain;
+    if (!first.plant || plant.error[0] > first.plant->error[0]) first = {&plant, fine};
   };
   for (Plant& plant : plants_) {
     if (plant.chosen < MODAL_LEVEL) continue;
+    const bool fine = plant.chosen == FINE_MODAL_TIER;
     const ModalTreeState* modal_state = detail.modes.find(plant.id);
     if (!modal_state)
-      wait(plant, plant.stepwise, plant.chosen == FINE_MODAL_TIER ? finer : plain);
-    else if (!modal_state->fine() && plant.chosen == FINE_MODAL_TIER)
-      wait(plant, MODAL_LEVEL, finer);
-    else if (modal_state->fine() && plant.chosen == MODAL_LEVEL)
+      wait(plant, plant.stepwise, fine);
+    else if (!modal_state->fine() && fine)
+      wait(plant, MODAL_LEVEL, true);
+    else if (modal_state->fine() && !fine)
       plant.chosen = plant.stepwise;
   }
-  Plant* next = plain ? plain : start.fine ? finer : nullptr;
+  return out;
+}
+
+// One tree per tick gets plain modes, that with the largest error first; if none does, one gets
+// fine modes at its turn. Those whose turn comes later are computed in advance, which changes no
+// result. A large tree is the only one in its tick.
+void DetailChooser::startModes(const PredictionContext& context, const Start& start,
+                               TreeDetail& detail) {
+  const ModalContext at{context.layout, context.terrain, context.wind, context.broken};
+  const Candidates candidates = findCandidates(context, start, detail);
   has_computed_ = false;
-  if (!next) return;
-  const bool fine = next == finer;
-  const ModalTreeState* like = start.known ? start.known->find(next->id, fine) : nullptr;
+  awaited_.clear();
+  const bool started = startRequested(at, start, candidates, context, detail);
+  const Candidate next = started                  ? Candidate{}
+                         : candidates.plain.plant ? candidates.plain
+                         : start.fine             ? candidates.finer
+                                                  : Candidate{};
+  if (candidates.finer.plant && next.plant != candidates.finer.plant) {
+    const ModesWorker::Key key{candidates.finer.plant->id, true};
+    if (start.worker->isIdle()) start.worker->begin(at, key);
+    awaited_.insert(key);
+  }
+  if (!next.plant) return;
+  const ModalTreeState* like = start.known ? start.known->find(next.plant->id, next.fine) : nullptr;
   if (!like && !start.compute) return;
   has_computed_ = !like;
-  detail.modes.addTree({context.layout, context.terrain, context.wind, context.broken}, next->id,
-                       fine, context.stamp, like);
-  detail.changed.insert(next->id);
-  detail.begun.insert(next->id);
-  next->chosen = fine ? FINE_MODAL_TIER : MODAL_LEVEL;
+  if (!like) like = start.worker->find(at, {next.plant->id, next.fine});
+  this->start(at, next, context.stamp, like, detail);
+}
+
+// Requests the modes of one large tree at a time. Returns whether they have started.
+bool DetailChooser::startRequested(const ModalContext& at, const Start& start,
+                                   const Candidates& candidates, const PredictionContext& context,
+                                   TreeDetail& detail) {
+  std::optional<ModesRequest>& request = detail.request;
+  if (!candidates.requested.plant) request.reset();
+  if (!request && candidates.large.plant) {
+    const auto [plant, fine] = candidates.large;
+    const double delay = branchesOf(context, plant->id) * (fine ? FINE_DELAY : PLAIN_DELAY);
+    request = {plant->id, fine, context.stamp + fromSeconds(delay)};
+  }
+  if (!request) return false;
+  const ModesWorker::Key key{request->tree, request->fine};
+  start.worker->begin(at, key);
+  const bool is_due = context.stamp >= request->due && (start.fine || !request->fine);
+  if (!is_due || !candidates.requested.plant) {
+    awaited_.insert(key);
+    return false;
+  }
+  this->start(at, candidates.requested, context.stamp, start.worker->find(at, key), detail);
+  request.reset();
+  return true;
+}
+
+void DetailChooser::start(const ModalContext& at, const Candidate& candidate, Nanoseconds stamp,
+                          const ModalTreeState* like, TreeDetail& detail) const {
+  const std::uint32_t tree = candidate.plant->id;
+  detail.modes.addTree(at, tree, candidate.fine, stamp, like);
+  detail.changed.insert(tree);
+  detail.begun.insert(tree);
+  candidate.plant->chosen = candidate.fine ? FINE_MODAL_TIER : MODAL_LEVEL;
 }
 
 // Trees that are not among the plants return to the base.

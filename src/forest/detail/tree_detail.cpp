@@ -7,6 +7,7 @@ namespace vegetation_sim::forest {
 void TreeDetail::reset(int level) {
   levels.reset(LevelState::settled(level));
   modes.clear();
+  request.reset();
   forgetChanges();
   sequence = 0;
 }
@@ -33,6 +34,7 @@ const ModalTreeState* TreeDetail::loseBranches(const ModalContext* at, std::uint
                                                const ModalTreeState* like) {
   changed.insert(tree);
   begun.erase(tree);
+  if (request && request->tree == tree) request.reset();
   const ModalTreeState* out = at ? modes.replaceModes(*at, tree, like) : nullptr;
   if (out)
     begun.insert(tree);

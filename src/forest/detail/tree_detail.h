@@ -3,12 +3,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "vegetation_sim/forest/physics/modal_forest.h"
 #include "vegetation_sim/tree/state/level_map.h"
 
 namespace vegetation_sim::forest {
+
+/// A large tree whose modes are computed on another thread, and when they start.
+struct ModesRequest {
+  std::uint32_t tree{0};
+  bool fine{false};
+  Nanoseconds due{0};
+};
 
 /// Levels and modes of all trees for one group of listeners, and what updates for them have to
 /// contain. A value: a copy is a snapshot.
@@ -19,6 +27,7 @@ struct TreeDetail {
   std::set<std::uint32_t>
       begun;                  ///< of these, trees with new modes; the update has their amplitudes
   std::uint32_t sequence{0};  ///< of the next update
+  std::optional<ModesRequest> request;
 
   /// Settles all trees at a level without modes.
   void reset(int level);

@@ -20,13 +20,20 @@ std::size_t modalSteps(Nanoseconds from, Nanoseconds to) {
 }
 
 // A tree with few branches gets all its modes.
-ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
-  static const BrokenTrees NONE;
-  const Tree tree =
-      growTree(at.layout, id, at.terrain, brokenOf(at.broken ? *at.broken : NONE, id));
+ModalTreeState modesOfTree(const Tree& tree, const Species& species, bool fine) {
   const bool few = 2 * tree.skeleton.branches.size() <= ModalDepth{}.most();
-  return ModalTreeState(std::make_shared<const ModalTree>(
-      tree, at.layout.species[tree.seed.species], fine || few ? FINE_MODES : ModalDepth{}));
+  return ModalTreeState(
+      std::make_shared<const ModalTree>(tree, species, fine || few ? FINE_MODES : ModalDepth{}));
+}
+
+const BrokenBranches& brokenIn(const ModalContext& at, std::uint32_t id) {
+  static const BrokenTrees NONE;
+  return brokenOf(at.broken ? *at.broken : NONE, id);
+}
+
+ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
+  const Tree tree = growTree(at.layout, id, at.terrain, brokenIn(at, id));
+  return modesOfTree(tree, at.layout.species[tree.seed.species], fine);
 }
 
 }  // namespace
@@ -212,6 +219,14 @@ ModalTreeState ModalForest::computeModes(const ModalContext& at, std::uint32_t t
     throw InvalidInput("modes of tree " + std::to_string(tree) + " = " + std::to_string(modes) +
                        ", allowed are " + std::to_string(out.modes().size()));
   return out;
+}
+
+std::function<ModalTreeState()> ModalForest::prepareModes(const ModalContext& at, std::uint32_t id,
+                                                          bool fine) {
+  const TreeSeed seed = seedOf(at.layout, id);
+  return [seed, species = at.layout.species.at(seed.species), law = at.layout.motion,
+          foot = footOf(seed, at.terrain), broken = brokenIn(at, id),
+          fine] { return modesOfTree(growTree(seed, species, law, foot, broken), species, fine); };
 }
 
 void ModalForest::archive(Archive& a, std::size_t trees, const ModesOf& modes_of) {

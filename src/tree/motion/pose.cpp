@@ -18,11 +18,16 @@ Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law
 Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain,
               const BrokenBranches& broken) {
   const TreeSeed seed = seedOf(layout, id);
-  const Species& species = layout.species.at(seed.species);
-  Tree out = growTree(seed, species, layout.motion, broken);
-  out.drag = layout.motion.drag;
+  return growTree(seed, layout.species.at(seed.species), layout.motion, footOf(seed, terrain),
+                  broken);
+}
+
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law, const Vec3& foot,
+              const BrokenBranches& broken) {
+  Tree out = growTree(seed, species, law, broken);
+  out.drag = law.drag;
   out.reference_speed = species.reference_speed;
-  out.foot = footOf(out.seed, terrain);
+  out.foot = foot;
   return out;
 }
 

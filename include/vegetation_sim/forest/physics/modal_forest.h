@@ -76,6 +76,10 @@ class ModalForest {
   using ModesOf = std::function<ModalTreeState(std::uint32_t tree, std::size_t modes)>;
   /// A tree at rest whose modes are computed here.
   static ModalTreeState computeModes(const ModalContext& at, std::uint32_t tree, std::size_t modes);
+  /// Returns a function that computes the modes which addTree() would give a tree, at rest. It
+  /// needs nothing of the context any more and may be called on any thread.
+  static std::function<ModalTreeState()> prepareModes(const ModalContext& at, std::uint32_t tree,
+                                                      bool fine);
   /// Writes or reads the states of all trees. @param trees number of trees of the layout.
   void archive(Archive& a, std::size_t trees, const ModesOf& modes_of);
 

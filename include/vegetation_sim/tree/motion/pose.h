@@ -26,6 +26,9 @@ struct Tree {
 /// the same bits. @throws InvalidInput for broken branches that the tree does not have.
 Tree growTree(const Layout& layout, std::uint32_t id, const terrain::HeightMap& terrain,
               const BrokenBranches& broken = {});
+/// Grows a tree with its foot at a place, by the motion law of its layout.
+Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law, const Vec3& foot,
+              const BrokenBranches& broken);
 /// Grows a tree at the origin, with linear drag.
 Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law,
               const BrokenBranches& broken = {});
