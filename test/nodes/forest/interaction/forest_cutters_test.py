@@ -14,16 +14,16 @@ from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
 
 from crowd_rig import Cart
 from forest_rig import RATE, Animator, TickClock, time_of
-from grab_rig import along_z, vector
+from grab_rig import along_z
 from watched_node import Log
 
 BEGIN = 1000 * RATE
 HEIGHT, HALF_LENGTH, HALF_WIDTH = 1.3, 0.15, 0.4  # of the bar [m]
-THICKEST = 0.0045  # [m]
+THICKEST = 0.0024  # [m]
 FROM, TO = -0.6, 0.25  # x of the first vine that the bar passes [m]
-MARGIN = 0.004  # [m] by which a branch is surely met or missed, in place and in radius
+MARGIN = 0.008  # [m] by which a branch, up to 4 mm in radius, is surely met or missed
 MOST = 256  # cuts of tools in a tick
-OAK = 2
+FIRST_OF_FIELD = 2  # number of the first vine of the field
 
 
 class Vine:
@@ -32,22 +32,26 @@ class Vine:
     def __init__(self, answer):
         self.parents, self.lengths, self.radii = answer.parents, answer.lengths, answer.radii
         self.poses = answer.transforms.poses
-        self.gone = {b.branch for b in answer.broken}
+        self.gone, self.pieces = {b.branch for b in answer.broken}, len(answer.broken)
         for i, parent in enumerate(self.parents):
             if parent in self.gone:
                 self.gone.add(i)
 
     def meets(self, branch, margin):
         """Returns whether points of the branch are in the box that the bar sweeps, larger by
-        `margin`, and the branch is at least that much thinner than the limit all along."""
-        if self.radii[branch] + 0.1 * margin > THICKEST:
-            return False
+        `margin`."""
         for k in range(401):
             x, y, z = along_z(self.poses[branch], self.lengths[branch] * k / 400)
             if (abs(z - HEIGHT) <= 0.01 + margin and abs(y) <= HALF_WIDTH + margin and
                     FROM - HALF_LENGTH - margin <= x <= TO + HALF_LENGTH + margin):
                 return True
         return False
+
+    def is_thick(self, branch):
+        """Returns whether the branch is too thick all along: its radius falls to that of the next
+        piece."""
+        return any(self.parents[i] == branch and radius > THICKEST and
+                   radius > 0.6 * self.radii[branch] for i, radius in enumerate(self.radii))
 
     def carriers(self, branch):
         """Returns the branch and all below it."""
@@ -106,33 +110,32 @@ class ForestCutters(unittest.TestCase):
         self.assertIn('replay', again(False).message)
         self.assertTrue(self.switch(False).success)
         self.drive(FROM, TO, 5)
-        self.assertEqual(self.cuts(), [])
+        self.assertEqual(self.vine(0).gone, set())
         self.assertTrue(self.switch(True).success)
 
     def expect_a_trimmed_vine(self):
         before, other = self.vine(0), self.vine(1)
         self.assertEqual(before.gone, set())
         branches = range(1, len(before.parents))
-        sure = {b for b in branches if before.meets(b, -MARGIN)}
-        possible = {b for b in branches if before.meets(b, MARGIN)}
-        met = {c for b in branches for c in before.carriers(b)} - possible
+        thick = {b for b in branches if before.is_thick(b)}
+        sure = {b for b in branches if before.radii[b] < THICKEST and before.meets(b, -MARGIN)}
+        possible = {b for b in branches if before.meets(b, MARGIN)} - thick
         self.drive(FROM, TO, 5)
         after = self.vine(0)
-        self.assertGreater(len(sure), 3)
+        self.assertGreater(len(sure), 2)
         self.assertLess(len(possible), len(before.parents) // 2)
         self.assertEqual(sorted(sure - after.gone), [])
         taken = {b for b in branches if possible & set(before.carriers(b))}
         self.assertEqual(sorted(after.gone - taken), [])
-        self.assertTrue(met - after.gone, 'nothing is left')
         # Wood in the way of the bar that is thicker stays.
-        thick = [b for b in branches if before.radii[b] > THICKEST + 0.001 and
-                 abs(vector(before.poses[b].position)[2] - HEIGHT) < 0.3]
-        self.assertTrue(thick)
-        self.assertEqual(set(thick) & after.gone, set())
+        stays = {b for b in thick if before.meets(b, -MARGIN)}
+        self.assertGreater(len(stays), 1)
+        self.assertEqual(sorted(stays & after.gone), [])
         # The second vine is met by nothing.
         self.assertEqual(self.vine(1).gone, set())
         self.assertEqual(other.gone, set())
-        cuts = self.cuts()
+        cuts = self.forest.events.wait(
+            lambda _: len(self.cuts()) == after.pieces and self.cuts(), 'the events')
         self.assertEqual({tree for tree, _ in cuts}, {0})
         self.assertEqual(len(cuts), len(set(cuts)))
         for stamp in {e.header.stamp for e in self.forest.events.messages}:
@@ -160,26 +163,26 @@ class ForestCutters(unittest.TestCase):
         self.again.settle()
         self.run_ticks(2)
         self.assertEqual(self.vine(0).gone, gone)
-        count = len(self.cuts())
-        self.drive(0.5, 1.5, 4)  # tools are off again
-        self.assertEqual(len(self.cuts()), count)
+        self.drive(1.3, 3.1, 6)  # tools are off again
+        self.assertEqual(self.vine(1).gone, set())
         self.assertTrue(self.switch(True).success)
-        self.drive(0.5, 1.5, 4)
-        self.assertGreater(len(self.cuts()), count)
+        self.drive(1.3, 3.1, 6)
+        self.assertGreater(len(self.vine(1).gone), 1)
 
     def expect_a_bounded_tick(self):
-        """A saw that stands across the crown of the oak cuts the branches that it meets in several
+        """A saw that stands across the vines of a field cuts the shoots that it meets in several
         ticks."""
-        figures = []
+        cut = []
         for _ in range(2):
             self.saw.put(0.0, 30.0, time_of(self.clock.tick + 1))
             self.run_ticks(1)
-            figures.append(self.cuts(time_of(self.clock.tick)))
-        self.assertEqual(len(figures[0]), MOST)
-        self.assertEqual({tree for tree, _ in figures[0] + figures[1]}, {OAK})
-        self.assertEqual(figures[0], sorted(figures[0]))
-        self.assertTrue(figures[1])
-        self.assertEqual(set(figures[0]) & set(figures[1]), set())
+            stamp = time_of(self.clock.tick)
+            cut.append(self.forest.events.wait(
+                lambda _: len(self.cuts(stamp)) == MOST and self.cuts(stamp), 'the cuts'))
+        self.assertGreaterEqual(min(cut[0])[0], FIRST_OF_FIELD)
+        self.assertGreater(len({tree for tree, _ in cut[0] + cut[1]}), 20)
+        self.assertEqual(cut[0], sorted(cut[0]))
+        self.assertEqual(set(cut[0]) & set(cut[1]), set())
         self.assertGreater(self.forest.diagnostics()['Branches that tools have left uncut'], 0)
         self.saw.put(500.0, 30.0, time_of(self.clock.tick + 1))
 
@@ -191,7 +194,7 @@ class ForestCutters(unittest.TestCase):
                               lambda: self.clock.show(self.clock.tick))
         run, replay = self.forest.states(), self.again.states()
         both = sorted(set(run) & set(replay))
-        self.assertGreater(len(both), 3 * RATE)
+        self.assertGreater(len(both), 2 * RATE)
         self.assertEqual([s for s in both if run[s] != replay[s]], [])
         told = [p for p in self.breaks[0].messages]
         self.assertEqual(self.breaks[1].wait(lambda all: len(all) >= len(told) and all, 'the breaks'),

@@ -103,7 +103,7 @@ class ForestParameters(Ranges, RefusingNode):
                 ([{'frame': 'a', 'thickest': 0.6}],
                  'cutters[0]: thickest = 0.6 m is outside 0 to 0.5 m'),
                 ([{'frame': 'a', 'thickest': -1}], 'thickest = -1 m is outside 0 to 0.5 m'),
-                ([{'frame': 'a', 'thickest': float('nan')}], 'thickest = nan is not finite'),
+                ([{'frame': 'a', 'thickest': float('nan')}], 'thickest = nan m is not finite'),
                 ([{'frame': 'a', 'thickest': 'thumb'}], "thickest = 'thumb' is not a number"),
                 ([{'frame': 'a', 'height': 6}], 'cutters[0]: height = 6 m is outside 0 to 5 m'),
                 ([{'frame': 'a'}, {'frame': 'a'}], "cutters names 'a' twice"), (7, 'cutters = ')):
