@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "sensors/grass_volume.h"
+#include "sensors/grass/grass_volume.h"
 #include "sensors/people.h"
 #include "sensors/plants/plant_field.h"
 #include "sensors/tree_field.h"

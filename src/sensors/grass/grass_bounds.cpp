@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/grass_bounds.h"
+#include "sensors/grass/grass_bounds.h"
 
 #include <cmath>
 
-#include "sensors/blade_width.h"
+#include "sensors/grass/blade_width.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {

@@ -8,8 +8,8 @@
 
 #include "grass/lod/node_wind.h"
 #include "sensors/geometry/ray.h"
-#include "sensors/grass_bounds.h"
-#include "sensors/grass_stand.h"
+#include "sensors/grass/grass_bounds.h"
+#include "sensors/grass/grass_stand.h"
 #include "sensors/media/beer_lambert.h"
 #include "sensors/media/light_path.h"
 #include "vegetation_sim/grass/grass_layout.h"

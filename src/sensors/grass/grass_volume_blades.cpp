@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/grass_volume.h"
+#include "sensors/grass/grass_volume.h"
 #include "sensors/media/beer_lambert.h"
 #include "sensors/media/cell_walk.h"
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/blade_width.h"
+#include "sensors/grass/blade_width.h"
 
 #include <gtest/gtest.h>
 

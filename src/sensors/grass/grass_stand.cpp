@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/grass_stand.h"
+#include "sensors/grass/grass_stand.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/blade_width.h"
+#include "sensors/grass/blade_width.h"
 
 namespace vegetation_sim::scan {
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/grass_volume.h"
+#include "sensors/grass/grass_volume.h"
 
 #include <algorithm>
 #include <atomic>
