@@ -44,7 +44,8 @@ struct Extremes {
 };
 
 // Grabs a branch, pulls it sideways, releases it and waits until nothing is physical.
-void grabOnce(PhysicsRig rig, int branch, Extremes& out) {
+void grabOnce(int branch, Extremes& out) {
+  PhysicsRig rig(fewBranches());
   const BranchPoint point{0, branch, rig.branches()[branch].length};
   Grab grab;
   grab.point = point;
@@ -74,7 +75,7 @@ TEST(GrabOfEveryBranch, MovesItAndLetsItReturn) {
   const PhysicsRig rig(fewBranches());
   const int branches = static_cast<int>(rig.branches().size());
   Extremes all;
-  for (int branch = 0; branch < branches; ++branch) grabOnce(rig, branch, all);
+  for (int branch = 0; branch < branches; ++branch) grabOnce(branch, all);
   std::printf("of %d branches, %zu move by over 10 mm, at most %zu are physical, %.1e m remain\n",
               branches, all.moved, all.physical, all.left);
   EXPECT_LE(all.physical, static_cast<std::size_t>(MOST));
