@@ -39,7 +39,7 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
     detail->modes.clear();
     detail->request.reset();
   }
-  worker_->clear();
+  worker_.clear();
   snapshot_.sensed.offsets.clear();
   snapshot_.view.offsets.clear();
   if (!same_trees)
@@ -154,7 +154,7 @@ void Forest::chooseDetail(Nanoseconds before) {
       1e-6 * settings.budget.physical_cost * static_cast<double>(snapshot_.physics.branchCount());
   const PredictionContext context{
       layout_, *terrain_, snapshot_.wind, settings, errors_, stamp, &snapshot_.physics.broken()};
-  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr, worker_.get()};
+  DetailChooser::Start start{ModalForest::fineDue(before, stamp), true, nullptr, &worker_};
   world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
   start.compute = !world_chooser_.hasComputed();
   start.known = &snapshot_.world.modes;
@@ -167,7 +167,7 @@ void Forest::chooseDetail(Nanoseconds before) {
   std::set<ModesWorker::Key> awaited;
   for (const DetailChooser* chooser : {&world_chooser_, &sensor_chooser_, &view_chooser_})
     awaited.insert(chooser->awaited().begin(), chooser->awaited().end());
-  worker_->retain(awaited);
+  worker_.retain(awaited);
 }
 
 // Returns the angles of all joints at the last tick.

@@ -149,7 +149,7 @@ class Forest {
   TreeErrors errors_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
-  std::unique_ptr<ModesWorker> worker_{std::make_unique<ModesWorker>()};
+  ModesWorker worker_;
   ForestSnapshot snapshot_;
   DetailChooser world_chooser_, sensor_chooser_, view_chooser_;
 };

@@ -14,7 +14,8 @@
 namespace vegetation_sim::forest {
 
 /// Computes the modes of trees on other threads. Modes follow from layout, terrain and broken
-/// branches alone, so that results do not depend on when they were begun. Not thread-safe.
+/// branches alone, so that results do not depend on when they were begun. A value: copies share
+/// results. Not thread-safe.
 class ModesWorker {
  public:
   /// A tree, and whether its fine modes are meant.
