@@ -145,17 +145,15 @@ TEST(KnivesInForest, TreesAreFoundAndSorted) {
                         }};
   Knife knife;
   knife.width = knife.length = 8.0;
-  knife.thickest = 0.05;
+  knife.thickest = 1.0;
   const double height = growTree(layout, 0, flat).skeleton.height;
   knife.from.position = knife.to.position = Vec3(0.5, 0.0, 0.7 * height);
   const auto cuts = findCuts(layout, TreeGrid(layout), flat, {knife}, trees);
   EXPECT_EQ(grown, (std::vector<std::uint32_t>{0, 2}));
-  ASSERT_GT(cuts.size(), 2u);
-  EXPECT_EQ(cuts.front().tree, 0u);
-  EXPECT_EQ(cuts.back().tree, 2u);
-  for (std::size_t i = 1; i < cuts.size(); ++i)
-    EXPECT_LT(std::make_pair(cuts[i - 1].tree, cuts[i - 1].branch),
-              std::make_pair(cuts[i].tree, cuts[i].branch));
+  ASSERT_EQ(cuts.size(), 2u);  // trunks without limbs
+  EXPECT_EQ(cuts[0].tree, 0u);
+  EXPECT_EQ(cuts[1].tree, 2u);
+  EXPECT_GT(cuts[0].branch, 0);
 }
 
 }  // namespace
