@@ -46,7 +46,7 @@ class SwathLayer {
     double angle = falls_ ? fall_ + random.uniform(DIRECTION, -SPREAD, SPREAD)
                           : 2.0 * PI * random.uniform(DIRECTION);
     Vec3 at = endOf(end[-1].leaf, angle, random);
-    const double half = halfWidthOf(begin, end);
+    const double half = length(end[-1].leaf.side);  // of all its pieces; widths are shares of it
     const double tilt = half > 0.0 ? std::min(0.3, 0.25 * SWATH_HEIGHT / half) : 0.0;
     const SinCos roll = sinCos(random.uniform(ROLL, -tilt, tilt));
     const double least = LOWEST + half * std::fabs(roll.sin), room = SWATH_HEIGHT - 2.0 * least;
@@ -76,14 +76,6 @@ class SwathLayer {
   }
 
  private:
-  static double halfWidthOf(const FallenLeaf* begin, const FallenLeaf* end) {
-    double out = 0.0;
-    for (const FallenLeaf* piece = begin; piece != end; ++piece)
-      out = std::max(
-          out, length(piece->leaf.side) * std::max(piece->leaf.root_width, piece->leaf.tip_width));
-    return out;
-  }
-
   // Returns where the tip of a ribbon comes to lie.
   Vec3 endOf(const Leaf& last, double angle, const Random& random) const {
     Vec3 out(last.root.x(), last.root.y(), foot_.z());
