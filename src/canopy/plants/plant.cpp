@@ -250,8 +250,7 @@ PlantKind applyStage(const PlantKind& kind, double stage) {
 
 GrownPlant grow(const PlantKind& kind, const Plant& plant, double height) {
   GrownPlant out = growWhole(kind, plant);
-  if (height < UNCUT)
-    layDown(kind, plant, height, cutOff(plant.position.z() + height, out), out.leaves);
+  if (height < UNCUT) layDown(kind, plant, cutOff(plant.position.z() + height, out), out.leaves);
   return out;
 }
 

@@ -12,8 +12,8 @@ namespace vegetation_sim::canopy {
 /// lie stretched in about the direction in which the plant falls, which its seed chooses; single
 /// leaves fall straight down. All lie level with the foot, at most SWATH_HEIGHT above it, and keep
 /// their length and width.
-void layDown(const PlantKind& kind, const Plant& plant, double height,
-             const std::vector<FallenLeaf>& fallen, std::vector<Leaf>& leaves);
+void layDown(const PlantKind& kind, const Plant& plant, const std::vector<FallenLeaf>& fallen,
+             std::vector<Leaf>& leaves);
 
 /// Thickness of the layer of cut leaves [m].
 constexpr double SWATH_HEIGHT = 0.04;
