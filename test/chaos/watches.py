@@ -8,6 +8,7 @@ import rospy
 
 from raw_messages import publisher_of, stamp_of
 from scene import NANOSECONDS, NODES, TICKS
+from trend import trend_of
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
 LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
@@ -32,19 +33,12 @@ class MemoryWatch(threading.Thread):
         self._ended.set()
         self.join()
 
-    def slope(self, node, begin):
-        """Returns slope [bytes/h of simulated time] and duration [s] of the last process of a node
-        after the time `begin`, by linear regression."""
+    def trend(self, node, begin):
+        """Returns the trend [bytes/h of simulated time] of the last process of a node after the
+        time `begin`."""
         last = self.samples[node][-1][1]
-        points = [(at, size) for at, process, size in self.samples[node]
-                  if process == last and at >= begin]
-        if len(points) < 3:
-            return 0.0, 0.0
-        mean_at = sum(at for at, _ in points) / len(points)
-        mean_size = sum(size for _, size in points) / len(points)
-        spread = sum((at - mean_at) ** 2 for at, _ in points)
-        rise = sum((at - mean_at) * (size - mean_size) for at, size in points)
-        return 3600.0 * rise / spread, points[-1][0] - points[0][0]
+        return trend_of([(at / 3600.0, size) for at, process, size in self.samples[node]
+                         if process == last and at >= begin])
 
 
 class TickWatch:
