@@ -19,7 +19,7 @@ if(${PROJECT_NAME}_FUZZ)
   target_sources(fuzz_targets PRIVATE src/nodes/base/event_queue.cpp src/nodes/base/node_options.cpp
     src/nodes/canopy/canopy_options.cpp src/nodes/canopy/plants_in_area.cpp
     src/nodes/crowd/crowd_events.cpp src/nodes/cutters/cut_request.cpp
-    src/nodes/cutters/cutter_follower.cpp
+    src/nodes/cutters/cutter_follower.cpp src/nodes/cutters/followed_cutter.cpp
     src/nodes/forest/forest_inputs.cpp src/nodes/bodies/robot_bodies_parts.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
     src/nodes/snapshots/snapshot_store.cpp)

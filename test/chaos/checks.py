@@ -7,6 +7,7 @@ from table import Table
 
 MOST_GAP = 0.5              # [s] of simulated time
 MOST_SLOPE = 1.0            # [MB/h] of simulated time
+ERRORS = 2.0                # standard errors by which a slope must exceed its bar
 SHORTEST_MEASUREMENT = 900  # [s]; the slope of a shorter time is that of noise
 
 
@@ -36,12 +37,16 @@ def add_memory(table, rig, since):
         table.add('memory', 'not measured: the run is too short for each fault after the last kill')
         return
     for node in NODES:
-        slope, duration = rig.memory.slope(node, since)
+        trend = rig.memory.trend(node, since)
+        duration = 3600.0 * trend.duration
         judged = duration >= SHORTEST_MEASUREMENT
-        size = rig.memory.samples[node][-1][2]
-        table.add('memory of ' + node, '%+.2f MB/h in %.0f s, %.1f MB' % (
-            slope / 1e6, duration, size / 1e6),
-                  '< %g MB/h' % MOST_SLOPE if judged else '', not judged or slope < 1e6 * MOST_SLOPE)
+        size, margin = rig.memory.samples[node][-1][2], ERRORS * trend.error
+        decided = abs(trend.slope - 1e6 * MOST_SLOPE) >= margin
+        table.add('memory of ' + node, '%+.2f +- %.2f MB/h in %.0f s, %.1f MB%s' % (
+            trend.slope / 1e6, trend.error / 1e6, duration, size / 1e6,
+            '' if decided else ', undecided'),
+                  '< %g MB/h + %g errors' % (MOST_SLOPE, ERRORS) if judged else '',
+                  not judged or trend.slope - margin < 1e6 * MOST_SLOPE)
 
 
 def add_gaps(table, rig):

@@ -70,25 +70,32 @@ Points farthest(const Points& points) {
 // their extents in any direction.
 class Excess {
  public:
-  Excess(const CoverPart& part, const Points& hull) : part_(part), hull_(hull) {
-    body_.shape = part.shape;
-    body_.size = part.size;
+  Excess(const CoverPart& part, const Points& hull)
+      : centre_(part.pose.position), to_part_(conjugate(part.pose.orientation)), hull_(hull) {
+    Body body;
+    body.shape = part.shape;
+    body.size = part.size;
+    shape_ = shapeOf(body);
   }
 
-  double largest() const {
+  /// Returns the largest, or any of at least `limit` if there is one.
+  double largest(double limit) const {
     std::vector<std::pair<double, Vec3>> found;
-    for (const Vec3& side : directions()) found.emplace_back(along(side), side);
+    for (const Vec3& side : directions()) {
+      found.emplace_back(along(side), side);
+      if (found.back().first >= limit) return found.back().first;
+    }
     std::partial_sort(found.begin(), found.begin() + REFINED, found.end(),
                       [](const auto& a, const auto& b) { return a.first > b.first; });
     double out = 0.0;
-    for (int i = 0; i < REFINED; ++i) out = std::max(out, refine(found[i].first, found[i].second));
+    for (int i = 0; i < REFINED && out < limit; ++i)
+      out = std::max(out, refine(found[i].first, found[i].second));
     return out;
   }
 
  private:
   double along(const Vec3& side) const {
-    const Vec3 in_part = rotate(conjugate(part_.pose.orientation), side);
-    return dot(side, part_.pose.position) + physics::supportOf(shapeOf(body_), in_part) -
+    return dot(side, centre_) + physics::supportOf(shape_, rotate(to_part_, side)) -
            supportOf(hull_, side);
   }
   double refine(double best, Vec3 side) const {
@@ -106,9 +113,10 @@ class Excess {
     return best;
   }
 
-  const CoverPart& part_;
+  Vec3 centre_;
+  Quat to_part_;
+  physics::RoundedBox shape_;
   const Points& hull_;
-  Body body_;
 };
 
 // Turns z to an axis.
@@ -147,15 +155,16 @@ CoverPart fitCapsule(const Points& points, const Bounds& bounds, int axis) {
   return out;
 }
 
-CoverPart fit(const Points& points) {
+// Returns the shape with the least error if that is below the limit, else one that is not.
+CoverPart fit(const Points& points, double limit) {
   Bounds bounds;
   for (const Vec3& point : points) bounds.add(point);
   const Points hull = farthest(points);
   CoverPart best = fitBox(bounds);
-  best.error = Excess(best, hull).largest();
+  best.error = Excess(best, hull).largest(limit);
   for (int axis = 0; axis < 3; ++axis) {
     CoverPart capsule = fitCapsule(points, bounds, axis);
-    capsule.error = Excess(capsule, hull).largest();
+    capsule.error = Excess(capsule, hull).largest(std::min(limit, best.error));
     if (capsule.error < best.error) best = capsule;
   }
   return best;
@@ -183,19 +192,27 @@ void removeDuplicates(Points& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-std::vector<CoverPart> coverBySlabs(const Triangles& surface, const Bounds& bounds, int axis,
-                                    int slabs) {
+struct Slabs {
+  int axis, count;
+};
+
+// Returns a shape for each slab. It ends at the first whose error is not below the limit.
+std::vector<CoverPart> coverSlabs(const Triangles& surface, const Bounds& bounds, Slabs slabs,
+                                  double limit) {
+  const auto [axis, count] = slabs;
   std::vector<CoverPart> out;
-  const double thickness = (bounds.high[axis] - bounds.low[axis]) / slabs;
-  for (int i = 0; i < slabs; ++i) {
+  const double thickness = (bounds.high[axis] - bounds.low[axis]) / count;
+  for (int i = 0; i < count; ++i) {
     const double low = bounds.low[axis] + i * thickness;
-    const double high = i + 1 == slabs ? bounds.high[axis] : low + thickness;
+    const double high = i + 1 == count ? bounds.high[axis] : low + thickness;
     Points points;
     for (const auto& [a, b, c] : surface.faces)
       addWithin({surface.corners[a], surface.corners[b], surface.corners[c]}, axis, low, high,
                 points);
     removeDuplicates(points);
-    if (!points.empty()) out.push_back(fit(points));
+    if (points.empty()) continue;
+    out.push_back(fit(points, limit));
+    if (!(out.back().error < limit)) break;
   }
   return out;
 }
@@ -232,12 +249,14 @@ std::vector<CoverPart> coverTriangles(const Triangles& surface, const CoverSetti
   Bounds bounds;
   for (const auto& face : surface.faces)
     for (const std::uint32_t corner : face) bounds.add(surface.corners[corner]);
-  std::vector<CoverPart> best = coverBySlabs(surface, bounds, 0, 1);
+  std::vector<CoverPart> best =
+      coverSlabs(surface, bounds, {0, 1}, std::numeric_limits<double>::max());
   for (int slabs = 2; slabs <= settings.most_parts && largestError(best) > settings.tolerance;
        slabs *= 2)
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<CoverPart> parts = coverBySlabs(surface, bounds, axis, slabs);
-      if (largestError(parts) < largestError(best)) best = std::move(parts);
+      const double limit = largestError(best);
+      std::vector<CoverPart> parts = coverSlabs(surface, bounds, {axis, slabs}, limit);
+      if (largestError(parts) < limit) best = std::move(parts);
     }
   return best;
 }

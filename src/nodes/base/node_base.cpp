@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
+#include "nodes/base/freed_memory.h"
 #include "ros/services/rivals.h"
 
 namespace vegetation_sim {
 namespace {
 
+constexpr int RELEASE_PERIOD = 10;     // reports between two releases of freed memory
 constexpr double BEAT_PERIOD = 0.2;    // [s] of wall time
 constexpr double SHORTEST_WAIT = 0.7;  // that is reported [s]
 
@@ -32,8 +34,9 @@ NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
 }
 
 void NodeBase::startDiagnostics() {
-  diagnostics_timer_ =
-      handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+  diagnostics_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this, reports = 0](const ros::WallTimerEvent&) mutable {
+        if (++reports % RELEASE_PERIOD == 0) releaseFreedMemory();
         acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
       });
   beat_timer_ = handle_.createWallTimer(ros::WallDuration(BEAT_PERIOD),

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "forest/contact/contact_body.h"
 #include "nodes/bodies/robot_bodies.h"
@@ -61,9 +63,37 @@ void setShape(const urdf::Geometry& geometry, forest::Body& body) {
   }
 }
 
-struct MeshCovering {
-  const MeshReader& read;
-  forest::CoverSettings settings;
+// Reads meshes and covers them, each once: a robot has several equal wheels.
+class MeshCovering {
+ public:
+  MeshCovering(const MeshReader& read, const forest::CoverSettings& settings)
+      : read_(read), settings_(settings) {}
+
+  /// Returns the shapes that cover a mesh, which its URDF may stretch.
+  const std::vector<forest::CoverPart>& coverOf(const urdf::Mesh& mesh) {
+    const Key key{mesh.filename, mesh.scale.x, mesh.scale.y, mesh.scale.z};
+    const auto known = covers_.find(key);
+    return known != covers_.end() ? known->second : covers_[key] = cover(mesh);
+  }
+
+ private:
+  using Key = std::tuple<std::string, double, double, double>;
+
+  std::vector<forest::CoverPart> cover(const urdf::Mesh& mesh) const {
+    forest::Triangles surface = read_(mesh.filename);
+    for (Vec3& corner : surface.corners)
+      corner =
+          Vec3(corner.x() * mesh.scale.x, corner.y() * mesh.scale.y, corner.z() * mesh.scale.z);
+    try {
+      return coverTriangles(surface, settings_);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(mesh.filename + ": " + error.what());
+    }
+  }
+
+  const MeshReader& read_;
+  forest::CoverSettings settings_;
+  std::map<Key, std::vector<forest::CoverPart>> covers_;
 };
 
 // A robot of many links has fewer shapes in each.
@@ -73,18 +103,9 @@ int partsPerMesh(const urdf::Model& model) {
   return std::clamp(static_cast<int>(MOST_PARTS / 2 / collisions), 1, 8);
 }
 
-// Adds the shapes that cover a mesh, whose URDF may stretch it.
-void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshCovering& meshes,
+void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, MeshCovering& meshes,
              RobotParts& out) {
-  forest::Triangles surface = meshes.read(mesh.filename);
-  for (Vec3& corner : surface.corners)
-    corner = Vec3(corner.x() * mesh.scale.x, corner.y() * mesh.scale.y, corner.z() * mesh.scale.z);
-  std::vector<forest::CoverPart> cover;
-  try {
-    cover = coverTriangles(surface, meshes.settings);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(mesh.filename + ": " + error.what());
-  }
+  const std::vector<forest::CoverPart>& cover = meshes.coverOf(mesh);
   for (std::size_t i = 0; i < cover.size(); ++i) {
     forest::Body part = whole;
     if (i > 0) part.id += "_part" + std::to_string(i);
@@ -96,7 +117,7 @@ void addMesh(const urdf::Mesh& mesh, const forest::Body& whole, const MeshCoveri
   out.mesh_error = std::max(out.mesh_error, largestError(cover));
 }
 
-void addCollision(const urdf::Geometry& geometry, forest::Body part, const MeshCovering& meshes,
+void addCollision(const urdf::Geometry& geometry, forest::Body part, MeshCovering& meshes,
                   RobotParts& out) {
   if (geometry.type == urdf::Geometry::MESH)
     addMesh(static_cast<const urdf::Mesh&>(geometry), part, meshes, out);
@@ -106,7 +127,7 @@ void addCollision(const urdf::Geometry& geometry, forest::Body part, const MeshC
   }
 }
 
-void addLink(const urdf::Link& link, const std::string& prefix, const MeshCovering& meshes,
+void addLink(const urdf::Link& link, const std::string& prefix, MeshCovering& meshes,
              RobotParts& out) {
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
@@ -193,7 +214,7 @@ RobotParts partsOfUrdf(const std::string& urdf, const std::string& prefix, Fault
     faults.add("robot_description: is no URDF; see the log for what urdf says of it");
     return out;
   }
-  const MeshCovering meshes{read, {forest::CoverSettings().tolerance, partsPerMesh(model)}};
+  MeshCovering meshes(read, {forest::CoverSettings().tolerance, partsPerMesh(model)});
   for (const auto& entry : model.links_) addLink(*entry.second, prefix, meshes, out);
   return out;
 }

@@ -7,11 +7,13 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
+#include <unistd.h>
 #include <vegetation_sim/Viewer.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -130,6 +132,42 @@ TEST_F(NodeEnd, MayComeWithinACallback) {
   liveAndEnd<GrassField>("grass_field", "scenarios/lawn.yaml");
   liveAndEnd<CanopyAnimator>("canopy_animator", "scenarios/shrubs.yaml");
   liveAndEnd<AgentCrowd>("agent_crowd", "scenarios/crowd.yaml");
+}
+
+/// A node that only has diagnostics.
+class IdleNode final : public NodeBase {
+ public:
+  IdleNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+      : NodeBase("idle_node", handle, private_handle) {
+    startDiagnostics();
+  }
+  ~IdleNode() override { stopCallbacks(); }
+};
+
+double residentBytes() {
+  long all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// Blocks that are kept between freed ones are what a flood of messages leaves.
+TEST_F(NodeEnd, FreedMemoryIsReturnedToTheSystem) {
+  constexpr std::size_t COUNT = 2000, SIZE = 50'000;  // smaller than what glibc maps on its own
+  std::vector<std::vector<char>> kept, freed;
+  for (std::size_t i = 0; i < COUNT; ++i) {
+    freed.emplace_back(SIZE, 'a');
+    kept.emplace_back(100, 'b');
+  }
+  const double full = residentBytes();
+  freed.clear();
+  ASSERT_GT(residentBytes(), full - 0.1 * COUNT * SIZE) << "the freed memory is not kept";
+  ros::CallbackQueue queue;
+  ros::NodeHandle handle, private_handle("/idle_node");
+  handle.setCallbackQueue(&queue);
+  const IdleNode node(handle, private_handle);
+  for (int calls = 0; residentBytes() > full - 0.8 * COUNT * SIZE && calls < 300; ++calls)
+    queue.callAvailable(ros::WallDuration(0.1));
+  EXPECT_LT(residentBytes(), full - 0.8 * COUNT * SIZE);
 }
 
 }  // namespace

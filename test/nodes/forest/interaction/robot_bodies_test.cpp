@@ -8,6 +8,9 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "core/error_text.h"
 #include "vegetation_sim/core/math/math.h"
@@ -114,6 +117,35 @@ TEST_F(RobotBodiesTest, CollisionGeometryOfAUrdfIsRead) {
   EXPECT_EQ(wheel->shape, Shape::BOX);
   ASSERT_EQ(found.left_out.size(), 1u);
   EXPECT_EQ(found.left_out[0].find("link 'r1/camera' touches nothing: "), 0u) << found.left_out[0];
+}
+
+TEST_F(RobotBodiesTest, EqualMeshesAreReadAndCoveredOnce) {
+  std::vector<std::string> names;
+  const auto read = [&](const std::string& name) {
+    names.push_back(name);
+    return forest::Triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 2}}, {{0, 1, 2}}};
+  };
+  const auto link = [](const std::string& name, const std::string& mesh) {
+    return "<link name='" + name + "'><collision><geometry><mesh filename='" + mesh +
+           "'/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& child) {
+    return "<joint name='" + child + "' type='fixed'><parent link='a'/><child link='" + child +
+           "'/></joint>";
+  };
+  Faults faults;
+  const RobotParts found = partsOfUrdf(
+      "<robot name='r'>" + link("a", "wheel.stl") + link("b", "wheel.stl") +
+          link("c", "wheel.stl' scale='1 1 2") + link("d", "arm.stl") + link("e", "wheel.stl") +
+          joint("b") + joint("c") + joint("d") + joint("e") + "</robot>",
+      "", faults, read);
+  EXPECT_EQ(names, (std::vector<std::string>{"wheel.stl", "wheel.stl", "arm.stl"}));
+  std::map<std::string, std::vector<Vec3>> sizes;
+  for (const Body& part : found.parts) sizes[part.frame].push_back(part.size);
+  ASSERT_EQ(sizes.size(), 5u);
+  EXPECT_EQ(sizes["a"], sizes["b"]);
+  EXPECT_EQ(sizes["a"], sizes["e"]);
+  EXPECT_NE(sizes["a"], sizes["c"]);
 }
 
 // A bracket in millimetres, stretched to metres by the URDF, and turned by the link's origin.
