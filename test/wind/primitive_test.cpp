@@ -120,11 +120,11 @@ TEST(Check, AllowsOddNumbersOnlyWhereTheKindDoesNotUseThem) {
 
 TEST(Check, RefusesAnUnknownKind) {
   Primitive p = example(Kind::DISK);
-  p.kind = static_cast<Kind>(6);
+  p.kind = static_cast<Kind>(7);
   EXPECT_EQ(
       faultsOf(p),
-      "primitive 'source': kind = 6 is none of 0 (disk), 1 (breeze), 2 (gust), 3 (tornado), 4 "
-      "(blast), 5 (wake)");
+      "primitive 'source': kind = 7 is none of 0 (disk), 1 (breeze), 2 (gust), 3 (tornado), 4 "
+      "(blast), 5 (wake), 6 (gauss_markov)");
 }
 
 TEST(Check, RefusesAnUnknownEnvelope) {

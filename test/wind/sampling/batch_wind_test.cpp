@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, BatchWindOf, testing::Range(0, 7), [](const auto
 
 // A wake that is left out moves nothing within reach.
 TEST(BatchWind, LeavesOutOnlyAWakeThatIsAway) {  // N11
-  const wind::Primitive wake = wind::oneOfEach().back();
+  const wind::Primitive wake = wind::oneOfEach()[static_cast<std::size_t>(wind::Kind::WAKE)];
   ASSERT_EQ(wake.kind, wind::Kind::WAKE);
   const wind::Instant now = wind::Field({wake}).at(wind::at(5.0));
   const Random random(8);
