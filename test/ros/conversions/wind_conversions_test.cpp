@@ -16,8 +16,8 @@ TEST(WindConversions, ReturnEveryFieldToTheBit) {  // N2
     for (double* number :
          {&p.fade_in, &p.fade_out, &p.orbit_radius, &p.orbit_period, &p.repeat, &p.radius, &p.omega,
           &p.phase, &p.turbulence, &p.front_speed, &p.rise_length, &p.plateau_length,
-          &p.decay_length, &p.speed, &p.core_radius, &p.inflow, &p.updraft})
-      *number = (value += 0.01);
+          &p.decay_length, &p.speed, &p.core_radius, &p.inflow, &p.updraft, &p.time_scale})
+      *number = (value += 0.005);
   sources[0].envelope = wind::Envelope::PAPER;
   const wind::Field field(sources, 18446744073709551615ULL);
   const WindField message = toMsg(field, "odom", wind::at(17.25));
