@@ -27,7 +27,7 @@ meadow_robot | meadow_robot | 20 |
 mowing       | mowing       | 50 |
 harvest      | harvest      | 34 |
 crowd        | crowd        | 12 |
-hills        | hills        | 24 |
+hills        | hills        | 9  |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
 scan         | crowd        | 12 |
