@@ -13,6 +13,7 @@ from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
 from canopy_rig import ReplayedLeaves
 from crowd_rig import Cart
 from forest_rig import RATE, time_of
+from replaying import compare_replay
 from watched_node import Log, publisher, wait_for_readers
 
 BEGIN = 1000 * RATE
@@ -132,14 +133,10 @@ class CanopyContacts(ReplayedLeaves, unittest.TestCase):
         self.assertEqual([cell[:2] for cell in self.bent()], [cell[:2] for cell in after])
 
     def expect_equal_replay(self):
-        end = time_of(self.clock.tick)
-        self.run_ticks(16)  # The replay runs half a second behind.
-        self.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
-                              lambda: self.clock.show(self.clock.tick))
-        run, replay = self.leaves.hashes(), self.again.hashes()
-        both = sorted(set(run) & set(replay))
-        self.assertGreater(len(both), 4)
-        self.assertEqual([s for s in both if run[s] != replay[s]], [])
+        states, different = compare_replay(
+            self, lambda: (self.leaves.hashes(), self.again.hashes()))
+        self.assertGreater(states, 4)
+        self.assertEqual(different, [])
         leans = [{m.header.stamp: (m.bent_plants, m.bent_cells, m.lean_x, m.lean_y)
                   for m in node.state.messages} for node in (self.leaves, self.again)]
         both = sorted(set(leans[0]) & set(leans[1]))

@@ -16,6 +16,7 @@ from vegetation_sim.srv import CutPlants, LoadSnapshot, SaveSnapshot
 from canopy_rig import ReplayedLeaves
 from crowd_rig import Cart
 from forest_rig import RATE, time_of
+from replaying import compare_replay
 from watched_node import Log
 
 BEGIN = 1000 * RATE
@@ -146,14 +147,10 @@ class CanopyCut(ReplayedLeaves, unittest.TestCase):
 
     def expect_equal_replay(self):
         self.run_ticks(RATE)
-        end = time_of(self.clock.tick)
-        self.run_ticks(16)  # The replay runs half a second behind.
-        self.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
-                              lambda: self.clock.show(self.clock.tick))
-        run, replay = self.leaves.hashes(), self.again.hashes()
-        both = sorted(set(run) & set(replay))
-        self.assertGreater(len(both), 2)
-        self.assertEqual([s for s in both if run[s] != replay[s]], [])
+        states, different = compare_replay(
+            self, lambda: (self.leaves.hashes(), self.again.hashes()))
+        self.assertGreater(states, 2)
+        self.assertEqual(different, [])
         lists = [{m.header.stamp: (m.cut_plants, m.cut_heights)
                   for m in node.state.messages if m.lists_cuts} for node in (self.leaves, self.again)]
         both = sorted(set(lists[0]) & set(lists[1]))

@@ -6,7 +6,7 @@ import subprocess
 
 import rosbag
 
-from forest_rig import RATE, Animator, start_animator, stop
+from forest_rig import RATE, Animator, start_animator, stop, time_of
 
 SPEED = 10  # rate of the replay relative to wall time
 # [s] of simulated time by which the replay runs behind its events; one second of wall time
@@ -43,3 +43,16 @@ def replay(bag, clock, scenario, last):
         return forest.states()
     finally:
         stop(process)
+
+
+def compare_replay(test, read):
+    """Runs a test on until the node `test.again`, which replays the other, has reached this tick.
+    `read` returns the states of both nodes by stamp. Returns the number of stamps that both have,
+    and those at which they differ."""
+    end = time_of(test.clock.tick)
+    test.run_ticks(16)  # The replay runs half a second behind.
+    test.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
+                          lambda: test.clock.show(test.clock.tick))
+    run, replay = read()
+    both = sorted(set(run) & set(replay))
+    return len(both), [stamp for stamp in both if run[stamp] != replay[stamp]]

@@ -15,6 +15,7 @@ from vegetation_sim.srv import LoadSnapshot, SaveSnapshot
 from crowd_rig import Cart
 from forest_rig import RATE, Animator, TickClock, time_of
 from grab_rig import along_z
+from replaying import compare_replay
 from watched_node import Log
 
 BEGIN = 1000 * RATE
@@ -188,14 +189,10 @@ class ForestCutters(unittest.TestCase):
 
     def expect_equal_replay(self):
         self.run_ticks(RATE)
-        end = time_of(self.clock.tick)
-        self.run_ticks(16)  # The replay runs half a second behind.
-        self.again.state.wait(lambda all: any(m.header.stamp == end for m in all), 'the end',
-                              lambda: self.clock.show(self.clock.tick))
-        run, replay = self.forest.states(), self.again.states()
-        both = sorted(set(run) & set(replay))
-        self.assertGreater(len(both), 2 * RATE)
-        self.assertEqual([s for s in both if run[s] != replay[s]], [])
+        states, different = compare_replay(
+            self, lambda: (self.forest.states(), self.again.states()))
+        self.assertGreater(states, 2 * RATE)
+        self.assertEqual(different, [])
         told = [p for p in self.breaks[0].messages]
         self.assertEqual(self.breaks[1].wait(lambda all: len(all) >= len(told) and all, 'the breaks'),
                          told)
