@@ -162,8 +162,7 @@ TEST_F(CanopyDisplayTest, BendsWhatBodiesPush) {
 
 TEST_F(CanopyDisplayTest, WhatIsCutOffLiesOnTheGroundUntilAReset) {
   rig.blow(1);
-  rig.frames(5);
-  const std::vector<std::uint8_t> whole = rig.picture();
+  const std::vector<std::uint8_t> whole = steadyPicture(rig);
   rig.cut({0, 1}, 0.4);
   EXPECT_TRUE(rig.until([&] { return difference(whole, rig.picture()) > 0.5; }));
   // Each leaf stands or lies.
@@ -186,7 +185,7 @@ TEST_F(CanopyDisplayTest, WhatIsCutOffGivesNoShadow) {
     rig.frames(5);
     EXPECT_LT(difference(repainted, rig.picture()), 1e-3) << when;
   };
-  const std::vector<std::uint8_t> whole = rig.picture();
+  const std::vector<std::uint8_t> whole = steadyPicture(rig);
   rig.cut({0, 1, 2, 3}, 0.05);
   ASSERT_TRUE(rig.until([&] { return difference(whole, rig.picture()) > 1.0; }));
   expectGroundOfThePlants("after the cut");

@@ -143,6 +143,18 @@ inline double difference(const std::vector<std::uint8_t>& a, const std::vector<s
   return sum / static_cast<double>(std::max<std::size_t>(1, a.size()));
 }
 
+/// The image once all that was published has been drawn, so that it does not change any more.
+inline std::vector<std::uint8_t> steadyPicture(ViewRig& rig) {
+  std::vector<std::uint8_t> picture = rig.picture();
+  EXPECT_TRUE(rig.until([&] {
+    rig.frames(10);
+    const std::vector<std::uint8_t> last = std::move(picture);
+    picture = rig.picture();
+    return difference(last, picture) < 0.05;
+  }));
+  return picture;
+}
+
 /// The image is the same in any fixed frame, also a rotated and moved one. While tf does not know a
 /// frame, the status names it and nothing is drawn in a wrong place.
 inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
@@ -151,13 +163,7 @@ inline void expectStandsInAnyFixedFrame(ViewRig& rig, rviz::Display& display) {
   const QVariant former = view.subProp("Target Frame")->getValue();
   view.subProp("Target Frame")->setValue("map");
   rig.lookAt(1.5f, 0.4, 18.0);
-  std::vector<std::uint8_t> before = rig.picture();
-  ASSERT_TRUE(rig.until([&] {  // The image does not change any more.
-    rig.frames(10);
-    const std::vector<std::uint8_t> last = std::move(before);
-    before = rig.picture();
-    return difference(last, before) < 0.05;
-  }));
+  const std::vector<std::uint8_t> before = steadyPicture(rig);
   rig.manager().setFixedFrame("elsewhere");
   EXPECT_TRUE(rig.until([&] {
     return statusOf(display, "Transform") == "No transform from map to elsewhere";
