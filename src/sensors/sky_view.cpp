@@ -57,14 +57,14 @@ Vec3 skyDirection(double sine, double azimuth) {
   return {cosine * around.cos, cosine * around.sin, sine};
 }
 
-double transmittance(const Scene& scene, const Ray& ray, double reach) {
+double transmittance(const Scene& scene, const Ray& ray, double reach, double dark) {
   Hit solid = castToGround(scene, ray, reach);
   if (solid.label != Label::NONE) return 0.0;
   const FloatRay narrow(ray);
   scene.people.meet(ray, narrow, solid);
   scene.plants.meet(ray, narrow, solid);
   if (solid.label != Label::NONE) return 0.0;
-  LightPath path(reach);
+  LightPath path(reach, dark);
   scene.trees.addDepth(ray, narrow, path);
   scene.grass.addDepth(ray, path);
   return path.transmittance();

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/threads/thread_pool.h"
+#include "sensors/media/light_path.h"
 #include "sensors/sensor_scene.h"
 
 namespace vegetation_sim::scan {
@@ -34,7 +35,9 @@ Vec3 skyDirection(double sine, double azimuth);
 
 /// Returns the share of light that passes the first `reach` [m] of a ray: 0 if it meets wood, a
 /// plant of a canopy, a person or the ground, otherwise what leaves of trees and grass let through.
-double transmittance(const Scene& scene, const Ray& ray, double reach);
+/// @param dark optical depth from which light counts as blocked.
+double transmittance(const Scene& scene, const Ray& ray, double reach,
+                     double dark = LightPath::DARK);
 /// Returns what comes from the sky, past objects within `reach` [m]. A place below the ground or
 /// less than 1 cm above it counts as 1 cm above it. The result does not depend on the number of
 /// threads.

@@ -17,6 +17,7 @@ namespace {
 constexpr double FAR = std::numeric_limits<double>::infinity();
 constexpr double OFFSET = 1e-3;       // of rays of light from their surface [m]
 constexpr double FARTHEST = 20000.0;  // ground that is seen beyond the range [m]
+constexpr double DARK = 5.0;          // optical depth that leaves 0.7 % of the light
 constexpr double OPEN_SPOT = 0.02;    // places that look at one part of the sky [m]
 constexpr std::uint32_t OPEN_KEY = 0x6f70656eU;
 
@@ -59,7 +60,7 @@ class Picture {
   double openness(const Vec3& place) const {
     const Vec3 way = randomVector(cellAt(place, OPEN_SPOT), OPEN_KEY) + Vec3(0.0, 0.0, 1.6);
     const Vec3 from = place + Vec3(0.0, 0.0, OFFSET);
-    return transmittance(scene_, Ray(from, way / length(way)), camera_.range_max);
+    return transmittance(scene_, Ray(from, way / length(way)), camera_.range_max, DARK);
   }
 
   // Returns the share of sunlight that reaches a place.
@@ -70,7 +71,7 @@ class Picture {
     scene_.people.meet(ray, narrow, solid);
     scene_.plants.meet(ray, narrow, solid);
     if (solid.label != Label::NONE) return 0.0;
-    LightPath path(camera_.range_max);
+    LightPath path(camera_.range_max, DARK);
     scene_.trees.addDepth(ray, narrow, path);
     if (scene_.grass.isPresent()) path.add(scene_.grass.depthAbove(place, light_.toSun()));
     return path.transmittance();

@@ -10,6 +10,7 @@
 namespace vegetation_sim::scan {
 namespace {
 
+constexpr double FLATTEST = 0.0707;      // height over length of a blade that leans BEND_LIMIT
 constexpr double ROUNDING = 1.0 + 1e-6;  // more than the rounding of all that is computed here
 
 // Corners of a tile and what is largest among them.
@@ -25,6 +26,15 @@ struct Corners {
   grass::Features nodes[4];
   double height{0.0}, density{0.0}, shape{0.0};
 };
+
+// Returns by how much blades are denser for a ray that bend to the share `rise` of their length in
+// height, or higher, than upright ones: sqrt(1 - r^2 s - (1 - r^2) (1 - s) / 2) / r at the squared
+// cosine s of the ray. Its square is linear in s, so that an end of s is the worst, and falls with
+// r.
+double factorFrom(double rise) {
+  const double per_square = 1.0 / (rise * rise);
+  return ROUNDING * std::sqrt(std::max(0.5 * per_square + 0.5, per_square - 1.0));
+}
 
 // Returns the bound for upright blades from a height on. The mean over species with interpolated
 // shares is at most the largest mean of a corner.
@@ -54,25 +64,32 @@ void GrassBounds::setMap(const grass::FeatureMap& map) {
   rows_ = map.tileRows();
   per_band_ = map.tallest() > 0.0 ? BANDS / map.tallest() : 0.0;
   kinds_.clear();
-  for (const grass::SpeciesInput& input : map.species())
+  double tallest = 0.0;  // of the species
+  for (const grass::SpeciesInput& input : map.species()) {
     kinds_.push_back({input.species.lean, input.species.compliance});
+    tallest = std::max(tallest, input.species.height);
+  }
   still_.clear();
+  trodden_bound_.clear();
   shape_.clear();
   still_bent_.clear();
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) {
       const Corners corners(map, column, row);
-      for (int band = 0; band < BANDS; ++band)
-        still_.push_back(static_cast<float>(
-            boundFrom(map.tallest() * band / BANDS * (2.0 - ROUNDING), corners, map)));
+      const double longest = corners.height * tallest;
+      for (int band = 0; band < BANDS; ++band) {
+        const double height = map.tallest() * band / BANDS * (2.0 - ROUNDING);
+        const double bound = boundFrom(height, corners, map);
+        // Blades that reach this height do not lean more.
+        const double rise = std::max(FLATTEST, longest > 0.0 ? height / longest : 1.0);
+        still_.push_back(static_cast<float>(bound));
+        trodden_bound_.push_back(static_cast<float>(bound * factorFrom(std::min(rise, 1.0))));
+      }
       shape_.push_back(static_cast<float>(ROUNDING * corners.shape));
       still_bent_.push_back(static_cast<float>(bentBy(0.0, double{shape_.back()})));
     }
 }
 
-// With r the height of a bent blade over its length, the factor is
-// sqrt(1 - r^2 s - (1 - r^2) (1 - s) / 2) / r at the squared cosine s of the ray. Its square is
-// linear in s, so that an end of s is the worst, and falls with r.
 double GrassBounds::bentBy(double wind, double shape) const {
   double largest = 0.0;
   for (const Kind& kind : kinds_) {
@@ -81,10 +98,9 @@ double GrassBounds::bentBy(double wind, double shape) const {
     const double bend = softLimit(std::sqrt(blown * blown + lean * lean / 3.0), grass::BEND_KNEE,
                                   grass::BEND_LIMIT);
     const double rise = 1.0 - 0.125 * bend * bend;  // at most cos(bend / 2)
-    const double per_square = 1.0 / (rise * rise);
-    largest = std::max(largest, std::max(0.5 * per_square + 0.5, per_square - 1.0));
+    largest = std::max(largest, factorFrom(rise));
   }
-  return ROUNDING * std::sqrt(largest);
+  return largest;
 }
 
 void GrassBounds::setWind(const grass::NodeWind* air, const grass::TileWindow& window) {

@@ -26,8 +26,9 @@ class GrassBounds {
   double at(double x, double y, double height) const {
     const std::size_t tile = tileAt(x, y);
     if (tile == NO_TILE) return 0.0;
-    return stillAt(tile, height) *
-           (trodden_[tile] != 0 && isTrodden(x, y) ? TRODDEN : double{bent_[tile]});
+    const std::size_t band = tile * BANDS + bandOf(height);
+    if (trodden_[tile] != 0 && isTrodden(x, y)) return double{trodden_bound_[band]};
+    return double{still_[band]} * double{bent_[tile]};
   }
   /// Returns the edge of squares within which at() varies with the height alone, or is that of a
   /// corner: the largest one at the corners of a smaller box bounds all of it.
@@ -36,9 +37,8 @@ class GrassBounds {
  private:
   static constexpr int BANDS = 16;
   static constexpr std::size_t NO_TILE = SIZE_MAX;
-  double stillAt(std::size_t tile, double height) const {
-    const auto band = static_cast<int>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
-    return double{still_[tile * BANDS + static_cast<std::size_t>(band)]};
+  std::size_t bandOf(double height) const {
+    return static_cast<std::size_t>(std::min(std::max(height * per_band_, 0.0), BANDS - 1.0));
   }
   std::size_t tileAt(double x, double y) const {
     // The division is that of FeatureMap::at(), so that the tile is the same.
@@ -46,9 +46,6 @@ class GrassBounds {
     if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return NO_TILE;
     return static_cast<std::size_t>(static_cast<int>(v) * columns_ + static_cast<int>(u));
   }
-  /// Factor for blades that lie as flat as they can: at grass::BEND_LIMIT their height is at least
-  /// r = 0.0707 of their length, and the factor at most sqrt(1/r^2 - 1).
-  static constexpr double TRODDEN = 14.2;
   struct Kind {
     double lean, compliance;
   };
@@ -58,10 +55,11 @@ class GrassBounds {
   double origin_x_{0.0}, origin_y_{0.0}, tile_{1.0}, per_band_{1.0};
   int columns_{0}, rows_{0};  ///< of tiles
   std::vector<Kind> kinds_;
-  std::vector<float> still_;       ///< [rows x columns x BANDS] of upright blades [1/m]
-  std::vector<float> shape_;       ///< [rows x columns] largest shape of the corners
-  std::vector<float> still_bent_;  ///< [rows x columns] factor for blades that lean in still air
-  std::vector<float> bent_;        ///< [rows x columns] the same in the wind
+  std::vector<float> still_;          ///< [rows x columns x BANDS] of upright blades [1/m]
+  std::vector<float> trodden_bound_;  ///< the same of blades that lean in any way [1/m]
+  std::vector<float> shape_;          ///< [rows x columns] largest shape of the corners
+  std::vector<float> still_bent_;     ///< [rows x columns] factor for blades that lean in still air
+  std::vector<float> bent_;           ///< [rows x columns] the same in the wind
   std::vector<std::uint8_t> trodden_;  ///< [rows x columns] any block of trodden ground is near
   double spacing_{1.0};                ///< of the nodes of trodden ground [m]
   int block_columns_{0}, block_rows_{0};

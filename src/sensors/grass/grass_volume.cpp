@@ -211,7 +211,7 @@ void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
 // Returns the distance at which the ray leaves the layer or hits a blade.
 template <bool LIKELY>
 double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
-  CellWalk walk(ray, from, GRASS_CELL, GRASS_CELL);
+  CellWalk walk(ray, from, GRASS_CELL);
   const auto key = static_cast<std::uint32_t>(layout_.seed);
   for (; from < nearest.distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), nearest.distance);
@@ -235,7 +235,7 @@ double GrassVolume::march(const Ray& ray, double from, Hit& nearest) const {
 
 // Returns the distance at which the light leaves the layer or ends.
 double GrassVolume::marchLight(const Ray& ray, double from, LightPath& path) const {
-  CellWalk walk(ray, from, GRASS_CELL, GRASS_CELL);
+  CellWalk walk(ray, from, GRASS_CELL);
   for (; from < path.end().distance; walk.advance()) {
     const double start = from, to = std::min(walk.end(), path.end().distance);
     from = to;

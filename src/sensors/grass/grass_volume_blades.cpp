@@ -10,9 +10,10 @@
 namespace vegetation_sim::scan {
 namespace {
 
-constexpr double BLADE_RISE = 0.05;    // height of the steps along a column [m]
-constexpr double STEEP = 0.9;          // vertical component from which a ray stays in a column
-constexpr double BLADE_STRETCH = 0.4;  // part of a ray with one bound [m]
+constexpr double BLADE_STEP = 0.05;       // longest part of a ray with one extinction [m]
+constexpr double STEEP = 0.9;             // vertical component from which a ray stays in a column
+constexpr double LONGEST_CROSSING = 3.3;  // of a ray that is not steep, in widths of the column
+constexpr double BLADE_STRETCH = 0.4;     // part of a ray with one bound [m]
 constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 }  // namespace
@@ -39,11 +40,10 @@ double GrassVolume::boundWithin(const Ray& ray, double from, double to) const {
 // blade or has come as far as there are columns.
 double GrassVolume::marchBlades(const Ray& ray, double from, const BladeColumns& form,
                                 Hit& nearest) const {
-  ColumnWalk columns(ray, form.width, BLADE_RISE,
-                     static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
+  ColumnWalk columns(ray, form.width, static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
   while (from < std::min(nearest.distance, form.reach)) {
     const double to = std::min(from + BLADE_STRETCH, nearest.distance);
-    const double bound = boundWithin(ray, from, to + 2.0 * form.width);
+    const double bound = boundWithin(ray, from, to + LONGEST_CROSSING * form.width);
     if (bound < 0.0) return from;
     if (bound > 0.0) {
       columns.enter(from);
@@ -56,22 +56,27 @@ double GrassVolume::marchBlades(const Ray& ray, double from, const BladeColumns&
   return from;
 }
 
-// A column stops a ray at the optical depth of its random number, summed over the steps within it.
-// Extinction falls with the height, so that a column ends like a blade.
+// A column stops a ray at the optical depth of its random number, summed over all of the ray within
+// it. Extinction falls with the height, so that a column ends like a blade.
 double GrassVolume::meetColumns(ColumnWalk& columns, double to, double bound, Hit& nearest) const {
   const Ray& ray = columns.ray();
   const bool steep = std::fabs(ray.direction.z()) > STEEP;
-  for (; columns.at() < std::min(to, nearest.distance);) {
-    const ColumnWalk::Step step = columns.next(nearest.distance);
-    const double share = columns.share();
-    if (!steep && !mayBeBelow(columns.spent() + bound * step.length(), share)) continue;
-    const Vec3 middle = ray.at(0.5 * (step.from + step.to));
-    const Cell cell = cellAt(middle, GRASS_CELL);
-    const double here = extinctionIn(cell, above(middle), ray.direction);
-    const double left = depthAt(share) - columns.spent();
-    columns.spend(here * step.length());
-    if (!(left < here * step.length())) continue;
-    nearest = {step.from + std::max(left, 0.0) / here, Label::GRASS, 0, -1, BLADE_COSINE};
+  const double end = std::min(to, nearest.distance), most = steep ? end : nearest.distance;
+  while (columns.at() < end) {
+    const ColumnWalk::Step step = columns.next(most);
+    if (!steep && !mayBeBelow(bound * step.length(), step.share)) continue;
+    double spent = step.spent;
+    for (double from = step.from; from < step.to; from += BLADE_STEP) {
+      const double part = std::min(BLADE_STEP, step.to - from);
+      const Vec3 middle = ray.at(from + 0.5 * part);
+      const double here = extinctionIn(cellAt(middle, GRASS_CELL), above(middle), ray.direction);
+      const double left = depthAt(step.share) - spent;
+      spent += here * part;
+      if (!(left < here * part)) continue;
+      nearest = {from + std::max(left, 0.0) / here, Label::GRASS, 0, -1, BLADE_COSINE};
+      return nearest.distance;
+    }
+    if (!step.ends) columns.setSpent(spent);
   }
   return std::min(columns.at(), nearest.distance);
 }

@@ -10,13 +10,14 @@ namespace vegetation_sim::scan {
 /// Light on its way along a ray through media, up to an end.
 class LightPath {
  public:
-  /// @param reach distance of the end [m].
-  explicit LightPath(double reach) { end_.distance = reach; }
+  /// @param reach distance of the end [m]. @param dark optical depth from which light counts as
+  /// blocked.
+  explicit LightPath(double reach, double dark = DARK) : dark_(dark) { end_.distance = reach; }
 
-  /// Adds the optical depth of a medium. Light that is left at DARK counts as blocked.
+  /// Adds the optical depth of a medium.
   void add(double depth) {
     depth_ += depth;
-    if (depth_ > DARK) block();
+    if (depth_ > dark_) block();
   }
   void block() { end_.distance = BLOCKED; }
   bool isBlocked() const { return end_.distance < 0.0; }
@@ -26,12 +27,12 @@ class LightPath {
   /// Returns the share of light that passes: exp(-depth) (Beer-Lambert law).
   double transmittance() const { return isBlocked() ? 0.0 : exponential(-depth_); }
 
-  static constexpr double DARK = 10.0;  ///< optical depth; 5e-5 of the light is left
+  static constexpr double DARK = 10.0;  ///< 5e-5 of the light is left
 
  private:
   static constexpr double BLOCKED = -1.0;
   Hit end_;
-  double depth_{0.0};
+  double dark_, depth_{0.0};
 };
 
 }  // namespace vegetation_sim::scan
