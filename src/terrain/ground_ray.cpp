@@ -3,11 +3,14 @@
 #include "terrain/ground_ray.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace vegetation_sim::terrain {
 namespace {
 
 constexpr double CLOSE = 1e-3;  // [m]
+constexpr double NEVER = std::numeric_limits<double>::infinity();
 constexpr double SAFE = 0.999;  // more than the rounding of heights and slopes allows
 
 double above(const HeightMap& ground, const Vec3& place) {
@@ -25,6 +28,21 @@ Stretch between(double low, double high, double z, double rise, double reach) {
   return {std::max(0.0, std::min(a, b)), std::min(reach, std::max(a, b))};
 }
 
+// Returns up to which distance along a ray, from one at which it is above the ground, it stays
+// above the highest place of the block that it is in.
+double safeInBlock(const HeightMap& ground, const Vec3& origin, const Vec3& along, double from) {
+  const Vec3 place = origin + from * along;
+  const HeightMap::Block block = ground.blockAt(place.x(), place.y());
+  const double above = place.z() - block.top - CLOSE;
+  if (!(above > 0.0)) return from;
+  double way = along.z() < 0.0 ? above / -along.z() : NEVER;
+  if (along.x() != 0.0)
+    way = std::min(way, ((along.x() > 0.0 ? block.max_x : block.min_x) - place.x()) / along.x());
+  if (along.y() != 0.0)
+    way = std::min(way, ((along.y() > 0.0 ? block.max_y : block.min_y) - place.y()) / along.y());
+  return from + way;
+}
+
 }  // namespace
 
 bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& direction, double reach,
@@ -37,7 +55,8 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
   // A margin around the box keeps rounding at its faces from mattering.
   const Stretch part = between(box.min_z - CLOSE, box.max_z + CLOSE, origin.z(), along.z(), reach);
   if (part.from > part.to) return false;
-  const double step = ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution();
+  const double step =
+      std::max(CLOSE, ground.isFlat() ? part.to - part.from : 0.5 * ground.resolution());
   // How fast the ray may approach the ground.
   const double level = std::sqrt(along.x() * along.x() + along.y() * along.y());
   const double approach = ground.steepest() * level - along.z();
@@ -47,13 +66,13 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
     return above(ground, origin + at * along);
   };
   for (double height = heightAt(to); height > 0.0; height = heightAt(to)) {
-    // Steps that cannot reach the ground are taken without a look at it.
-    const double safe = approach > 0.0 ? to + SAFE * height / approach : part.to;
-    do {
-      if (to >= part.to) return false;
-      from = to;
-      to = std::min(part.to, to + std::max(step, CLOSE));
-    } while (to < safe);
+    if (to >= part.to) return false;
+    // Steps that cannot reach the ground are taken at once.
+    double safe = approach > 0.0 ? to + SAFE * height / approach : part.to;
+    if (!ground.isFlat()) safe = std::max(safe, safeInBlock(ground, origin, along, to));
+    const double steps = std::max(1.0, std::ceil((std::min(safe, part.to) - to) / step));
+    from = to + (steps - 1.0) * step;
+    to = std::min(part.to, to + steps * step);
   }
   while (to - from > CLOSE) {
     const double middle = 0.5 * (from + to);

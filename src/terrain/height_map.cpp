@@ -75,6 +75,7 @@ HeightMap::HeightMap(const HeightMapLaw& law, GreyImage image)
              law_.origin.y(),       law_.origin.y() + law_.resolution * (image_.rows - 1),
              base_ + scale_ * *low, base_ + scale_ * *high};
   steepest_ = findSteepest();
+  findTops();
   Hash hash;
   FieldHasher hasher(hash);
   describe(hasher, law_);
@@ -94,6 +95,36 @@ double HeightMap::findSteepest() const {
       most_y = std::max(most_y, std::fabs(sample(column, row + 1) - here));
     }
   return std::sqrt(most_x * most_x + most_y * most_y) / law_.resolution;
+}
+
+void HeightMap::findTops() {
+  const auto blocksOf = [](int samples) { return std::max(1, (samples - 2) / BLOCK + 1); };
+  block_columns_ = blocksOf(image_.columns);
+  block_rows_ = blocksOf(image_.rows);
+  for (int block_row = 0; block_row < block_rows_; ++block_row)
+    for (int block_column = 0; block_column < block_columns_; ++block_column) {
+      double top = -ENDLESS;
+      for (int row = block_row * BLOCK; row <= (block_row + 1) * BLOCK; ++row)
+        for (int column = block_column * BLOCK; column <= (block_column + 1) * BLOCK; ++column)
+          top = std::max(top, sample(column, row));
+      tops_.push_back(top);
+    }
+}
+
+HeightMap::Block HeightMap::blockAt(double x, double y) const {
+  const auto rangeOf = [this](double coordinate, double origin, int samples, int blocks,
+                              double& low, double& high) {
+    const int block = placeAt(coordinate, origin, law_.resolution, samples).index / BLOCK;
+    low = block == 0 ? -ENDLESS : origin + law_.resolution * (block * BLOCK);
+    high = block == blocks - 1 ? ENDLESS : origin + law_.resolution * ((block + 1) * BLOCK);
+    return block;
+  };
+  Block out{};
+  const int column =
+      rangeOf(x, law_.origin.x(), image_.columns, block_columns_, out.min_x, out.max_x);
+  const int row = rangeOf(y, law_.origin.y(), image_.rows, block_rows_, out.min_y, out.max_y);
+  out.top = tops_[static_cast<std::size_t>(row) * block_columns_ + column];
+  return out;
 }
 
 HeightMap HeightMap::load(const std::string& file) {

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "vegetation_sim/core/math/random.h"
+
 namespace vegetation_sim::terrain {
 namespace {
 
@@ -42,6 +44,52 @@ TEST(GroundRay, MeetsTheFirstCrestOnItsWay) {
     const Vec3 point = origin + s * along;
     ASSERT_GT(point.z(), ground.height(point.x(), point.y())) << s;
   }
+}
+
+// Hills of several blocks in both directions.
+HeightMap hills() {
+  const Random random(3);
+  GreyImage image{90, 50, 255, {}};
+  for (int i = 0; i < image.columns * image.rows; ++i) {
+    const double u = 0.11 * (i % image.columns), v = 0.13 * (i / image.columns);
+    const double noise = random.uniform(static_cast<std::uint64_t>(i), 0.0, 20.0);
+    image.samples.push_back(
+        static_cast<std::uint16_t>(100.0 + 60.0 * std::sin(u) + 60.0 * std::sin(v) + noise));
+  }
+  HeightMapLaw law;
+  law.height_max = 12.0;
+  law.origin = Vec3(-20.0, 5.0, -3.0);
+  return HeightMap(law, image);
+}
+
+TEST(GroundRay, MeetsWhatARayMeetsThatIsLookedAtEveryStep) {
+  const HeightMap ground = hills();
+  const Random random(4);
+  int met = 0, missed = 0;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    Vec3 origin(random.uniform(10 * i, -60.0, 110.0), random.uniform(10 * i + 1, -40.0, 90.0), 0.0);
+    origin.z() = ground.height(origin.x(), origin.y()) + random.uniform(10 * i + 2, 0.1, 8.0);
+    const Vec3 along =
+        Vec3(random.uniform(10 * i + 3, -1.0, 1.0), random.uniform(10 * i + 4, -1.0, 1.0),
+             random.uniform(10 * i + 5, -0.3, 0.1))
+            .normalized();
+    const double reach = 60.0;
+    double met_at = -1.0;
+    for (double s = 0.0; s < reach && met_at < 0.0; s += 0.01) {
+      const Vec3 point = origin + s * along;
+      if (point.z() <= ground.height(point.x(), point.y())) met_at = s;
+    }
+    Vec3 place;
+    const bool meets = meetGround(ground, origin, along, reach, place);
+    // A ridge narrower than a step may be missed.
+    if (meets && met_at >= 0.0 && std::fabs((place - origin).norm() - met_at) < 0.02)
+      ++met;
+    else if (meets == (met_at >= 0.0) && !meets)
+      ++missed;
+  }
+  EXPECT_GE(met + missed, 3960);
+  EXPECT_GE(met, 1000);
+  EXPECT_GE(missed, 1000);
 }
 
 TEST(GroundRay, MissesFromBelowUpwardsAndBeyondItsReach) {

@@ -57,6 +57,12 @@ class HeightMap {
   double resolution() const { return isFlat() ? 0.0 : law_.resolution; }
   /// Returns an upper bound of the slope of the ground in any direction.
   double steepest() const { return steepest_; }
+  /// Part of the ground, which is nowhere above `top`. A block at the border goes on beyond it.
+  struct Block {
+    double min_x, max_x, min_y, max_y, top;  ///< world [m]
+  };
+  /// Returns the block that (x, y) is in; the ground must not be flat.
+  Block blockAt(double x, double y) const;
   /// Returns a hash of all samples and of the law.
   std::uint64_t hash() const { return hash_; }
 
@@ -65,7 +71,9 @@ class HeightMap {
   Cell cellAt(double x, double y) const;
   double sample(int column, int row_from_south) const;
   double findSteepest() const;
+  void findTops();
 
+  static constexpr int BLOCK = 16;  ///< intervals between samples along a block
   static constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 
   HeightMapLaw law_{};
@@ -73,6 +81,8 @@ class HeightMap {
   double base_{0.0};   ///< Height of black in the world [m].
   double scale_{0.0};  ///< Height of one grey level [m].
   double steepest_{0.0};
+  int block_columns_{0}, block_rows_{0};
+  std::vector<double> tops_;  ///< [block_rows_ x block_columns_] highest sample of each block [m]
   Bounds bounds_{-ENDLESS, ENDLESS, -ENDLESS, ENDLESS, 0.0, 0.0};
   std::uint64_t hash_{0};
 };
