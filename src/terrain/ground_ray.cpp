@@ -43,6 +43,29 @@ double safeInBlock(const HeightMap& ground, const Vec3& origin, const Vec3& alon
   return from + way;
 }
 
+// Returns a place on a ray within CLOSE of where it meets the ground, and not above it. It must be
+// above the ground at `from`, and not at `to`. The method is that of the false position, which
+// halves the height at an end that was kept (Dowell and Jarratt 1971).
+template <class Height>
+double narrow(const Height& heightAt, double from, double to) {
+  double above = heightAt(from), below = heightAt(to);
+  while (to - from > CLOSE) {
+    const double way = (to - from) * above / (above - below);
+    const double at = std::min(std::max(from + way, from + 0.5 * CLOSE), to - 0.5 * CLOSE);
+    const double height = heightAt(at);
+    if (height > 0.0) {
+      from = at;
+      above = height;
+      below *= 0.5;
+    } else {
+      to = at;
+      below = height;
+      above *= 0.5;
+    }
+  }
+  return to;
+}
+
 }  // namespace
 
 bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& direction, double reach,
@@ -68,18 +91,15 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
   for (double height = heightAt(to); height > 0.0; height = heightAt(to)) {
     if (to >= part.to) return false;
     // Steps that cannot reach the ground are taken at once.
-    double safe = approach > 0.0 ? to + SAFE * height / approach : part.to;
-    if (!ground.isFlat()) safe = std::max(safe, safeInBlock(ground, origin, along, to));
-    const double steps = std::max(1.0, std::ceil((std::min(safe, part.to) - to) / step));
+    double safe = approach > 0.0 ? to + SAFE * height / approach : NEVER;
+    if (safe < part.to && !ground.isFlat())
+      safe = std::max(safe, safeInBlock(ground, origin, along, to));
+    if (safe > part.to) return false;
+    const double steps = std::max(1.0, std::ceil((safe - to) / step));
     from = to + (steps - 1.0) * step;
     to = std::min(part.to, to + steps * step);
   }
-  while (to - from > CLOSE) {
-    const double middle = 0.5 * (from + to);
-    const bool over = heightAt(middle) > 0.0;
-    from = over ? middle : from;
-    to = over ? to : middle;
-  }
+  to = narrow(heightAt, from, to);
   place = origin + to * along;
   return true;
 }

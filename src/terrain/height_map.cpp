@@ -59,6 +59,26 @@ struct HeightMap::Cell {
   bool inside_x, inside_y;
 };
 
+inline double HeightMap::sample(int column, int row_from_south) const {
+  column = std::min(column, image_.columns - 1);
+  const int row = image_.rows - 1 - std::min(row_from_south, image_.rows - 1);
+  const std::size_t index = static_cast<std::size_t>(row) * image_.columns + column;
+  return base_ + scale_ * image_.samples[index];
+}
+
+inline HeightMap::Cell HeightMap::cellAt(double x, double y) const {
+  const Place px = placeAt(x, law_.origin.x(), law_.resolution, image_.columns);
+  const Place py = placeAt(y, law_.origin.y(), law_.resolution, image_.rows);
+  return {sample(px.index, py.index),
+          sample(px.index + 1, py.index),
+          sample(px.index, py.index + 1),
+          sample(px.index + 1, py.index + 1),
+          px.fraction,
+          py.fraction,
+          px.inside,
+          py.inside};
+}
+
 HeightMap::HeightMap(const HeightMapLaw& law, GreyImage image)
     : law_(law), image_(std::move(image)) {
   Faults faults;
@@ -143,26 +163,6 @@ HeightMap HeightMap::load(const std::string& file) {
   faults.throwIfAny();
   return HeightMap(law,
                    loadGreyImage((std::filesystem::path(file).parent_path() / image).string()));
-}
-
-double HeightMap::sample(int column, int row_from_south) const {
-  column = std::min(column, image_.columns - 1);
-  const int row = image_.rows - 1 - std::min(row_from_south, image_.rows - 1);
-  const std::size_t index = static_cast<std::size_t>(row) * image_.columns + column;
-  return base_ + scale_ * image_.samples[index];
-}
-
-HeightMap::Cell HeightMap::cellAt(double x, double y) const {
-  const Place px = placeAt(x, law_.origin.x(), law_.resolution, image_.columns);
-  const Place py = placeAt(y, law_.origin.y(), law_.resolution, image_.rows);
-  return {sample(px.index, py.index),
-          sample(px.index + 1, py.index),
-          sample(px.index, py.index + 1),
-          sample(px.index + 1, py.index + 1),
-          px.fraction,
-          py.fraction,
-          px.inside,
-          py.inside};
 }
 
 double HeightMap::height(double x, double y) const {
