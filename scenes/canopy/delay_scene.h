@@ -8,7 +8,7 @@
 #include "scenes/canopy/plane_scene.h"
 #include "vegetation_sim/canopy/flow/fluid.h"
 #include "vegetation_sim/canopy/flow/oscillator.h"
-#include "vegetation_sim/canopy/layers/layers.h"
+#include "vegetation_sim/canopy/layers/layer_delay.h"
 
 // A layer behind the first one in gusts; shared by tests and benches.
 

@@ -61,7 +61,8 @@ class TreeSteps {
   void stepNearBodies(const Run& run, std::size_t k);
   void substep(const Run& run, const ContactTree& tree, std::size_t k, Nanoseconds from,
                Nanoseconds to, SubstepBisection& bisection);
-  void accumulateImpulses(const Run& run, Nanoseconds from, Nanoseconds to);
+  void accumulateImpulses(const TreeWind& air, SubtreeScratch& scratch, Nanoseconds from,
+                          Nanoseconds to);
   void accumulateImpulse(const SubtreeSpring* springs, const Vec3* places, Nanoseconds from,
                          Nanoseconds to, HeldGrab& grab) const;
   void accumulateReactions(std::size_t k, const std::vector<Reaction>& reactions);

@@ -12,7 +12,7 @@
 
 #include <hwy/highway.h>
 
-#include "grass/blades/blade_root.h"
+#include "grass/blades/blade_placement.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::grass::HWY_NAMESPACE {

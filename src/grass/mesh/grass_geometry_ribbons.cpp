@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grass/blades/blade_root.h"
+#include "grass/blades/blade_placement.h"
 #include "grass/mesh/mesh_writer.h"
 
 namespace vegetation_sim::grass {

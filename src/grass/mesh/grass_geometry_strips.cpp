@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "grass/blades/blade_root.h"
+#include "grass/blades/blade_placement.h"
 #include "grass/mesh/mesh_writer.h"
 #include "vegetation_sim/core/math/random.h"
 

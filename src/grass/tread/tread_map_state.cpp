@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grass/tread/tile_nodes.h"
+#include "grass/tread/tread_recovery.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/grass/tread/tread_map.h"
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "grass/tread/tread_lanes.h"
+#include "grass/tread/tread_recovery.h"
 
 namespace vegetation_sim::grass {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "grass/tread/tread_recovery.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/grass/blades/blade.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "grass/tread/tread_recovery.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

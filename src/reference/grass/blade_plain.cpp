@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reference/grass/blade_plain.h"
 
-#include "grass/blades/blade_root.h"
+#include "grass/blades/blade_placement.h"
 #include "reference/grass/blade_profile.h"
 
 namespace vegetation_sim::grass {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "vegetation_sim/canopy/layers/layers.h"
+#include "vegetation_sim/canopy/layers/layer_delay.h"
 
 namespace vegetation_sim::canopy {
 

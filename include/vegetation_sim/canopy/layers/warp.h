@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vegetation_sim/canopy/layers/layers.h"
+#include "vegetation_sim/canopy/layers/layer_delay.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/vectors.h"
 

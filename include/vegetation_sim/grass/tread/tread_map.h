@@ -207,18 +207,6 @@ class TreadMap {
   double last_full_{0.0};      ///< fullDose() of last_law_
 };
 
-/// Returns the share of its tilt that a node keeps: 1 - smoothStep((t - t0) / T), or 0 before t0.
-inline double tiltLeft(const TreadNode& node, Nanoseconds stamp) {
-  if (stamp < node.stamp || !(node.recovery > 0.f)) return 0.0;
-  if (node.recovery >= static_cast<float>(PERMANENT_RECOVERY)) return 1.0;
-  return 1.0 - smoothStep(secondsBetween(node.stamp, stamp) / double{node.recovery});
-}
-
-/// Returns the tilt of a node at a stamp [rad].
-inline float tiltAt(const TreadNode& node, Nanoseconds stamp) {
-  return static_cast<float>(double{node.tilt} * tiltLeft(node, stamp));
-}
-
 /// A node with less tilt counts as untrodden [rad].
 constexpr float CRUNCHED = 0.0174533f;
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/canopy/layers/layers.h"
+#include "vegetation_sim/canopy/layers/layer_delay.h"
 
 #include <gtest/gtest.h>
 
