@@ -1,9 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/grass_part.h"
-#include "reference/grass/blade_plain.h"
 
 #include <algorithm>
+
+#include "grass/tread/tread_recovery.h"
+#include "reference/grass/blade_plain.h"
 
 namespace vegetation_sim::scenes {
 

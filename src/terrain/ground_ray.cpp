@@ -43,28 +43,33 @@ double safeInBlock(const HeightMap& ground, const Vec3& origin, const Vec3& alon
   return from + way;
 }
 
-// Returns a place on a ray within CLOSE of where it meets the ground, and not above it. It must be
-// above the ground at `from`, and not at `to`. The method is that of the false position, which
-// halves the height at an end that was kept (Dowell and Jarratt 1971).
+// Part of a ray that begins above the ground and does not end above it.
 template <class Height>
-double narrow(const Height& heightAt, double from, double to) {
-  double above = heightAt(from), below = heightAt(to);
-  while (to - from > CLOSE) {
-    const double way = (to - from) * above / (above - below);
-    const double at = std::min(std::max(from + way, from + 0.5 * CLOSE), to - 0.5 * CLOSE);
-    const double height = heightAt(at);
-    if (height > 0.0) {
-      from = at;
-      above = height;
-      below *= 0.5;
-    } else {
-      to = at;
-      below = height;
-      above *= 0.5;
+class Crossing {
+ public:
+  Crossing(const Height& height, double from, double to)
+      : height_(height), from_(from), to_(to), above_(height(from)), below_(height(to)) {}
+
+  // Returns a place within CLOSE of the ground that is not above it. The place of a straight line
+  // is tried first; where this leaves more than half of the part, so is the middle.
+  double narrow() {
+    while (to_ - from_ > CLOSE) {
+      const double size = to_ - from_, way = size * above_ / (above_ - below_);
+      divideAt(std::min(std::max(from_ + way, from_ + 0.5 * CLOSE), to_ - 0.5 * CLOSE));
+      if (to_ - from_ > 0.5 * size) divideAt(0.5 * (from_ + to_));
     }
+    return to_;
   }
-  return to;
-}
+
+ private:
+  void divideAt(double at) {
+    const double height = height_(at);
+    (height > 0.0 ? from_ : to_) = at;
+    (height > 0.0 ? above_ : below_) = height;
+  }
+  const Height& height_;
+  double from_, to_, above_, below_;
+};
 
 }  // namespace
 
@@ -99,8 +104,7 @@ bool meetGround(const HeightMap& ground, const Vec3& origin, const Vec3& directi
     from = to + (steps - 1.0) * step;
     to = std::min(part.to, to + steps * step);
   }
-  to = narrow(heightAt, from, to);
-  place = origin + to * along;
+  place = origin + Crossing(heightAt, from, to).narrow() * along;
   return true;
 }
 

@@ -92,6 +92,21 @@ TEST(GroundRay, MeetsWhatARayMeetsThatIsLookedAtEveryStep) {
   EXPECT_GE(missed, 1000);
 }
 
+// A ray that is level with a terrace meets it at its edge, where the ground has its height exactly.
+TEST(GroundRay, MeetsATerraceOfItsOwnHeight) {
+  GreyImage image{4, 2, 8, {0, 0, 8, 8, 0, 0, 8, 8}};
+  HeightMapLaw law;
+  law.resolution = 100.0;
+  law.height_max = 8.0;
+  const HeightMap ground(law, image);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 origin(0.37 * i, 50.0, 8.0);
+    Vec3 place;
+    ASSERT_TRUE(meetGround(ground, origin, {1.0, 0.0, 0.0}, FARTHEST, place)) << i;
+    ASSERT_NEAR(place.x(), 200.0, 2e-3) << i;
+  }
+}
+
 TEST(GroundRay, MissesFromBelowUpwardsAndBeyondItsReach) {
   const HeightMap ground = waves();
   Vec3 place;

@@ -12,8 +12,8 @@
 
 namespace vegetation_sim::scan {
 
-/// Upper bounds of the extinction of untrodden grass, by tile and height, so that most cells on a
-/// ray's way need no evaluation of the grass in them.
+/// Upper bounds of the extinction of grass, trodden or not, by tile and height, so that most cells
+/// on a ray's way need no evaluation of the grass in them.
 class GrassBounds {
  public:
   void setMap(const grass::FeatureMap& map);

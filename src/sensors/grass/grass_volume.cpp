@@ -193,14 +193,15 @@ void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
   });
 }
 
-void GrassVolume::meetBlades(const Ray& ray, Hit& nearest) const {
+void GrassVolume::meetBlades(const Ray& ray, Hit& nearest, Cells cells) const {
   visitLayer(ray, nearest, [&](double from) {
     for (const BladeColumns& form : BLADE_COLUMNS) {
       if (from >= form.reach) continue;
-      from = marchBlades(ray, from, form, nearest);
+      from = marchBlades(ray, from, form, cells, nearest);
       if (from < form.reach) return from;
     }
-    return march<true>(ray, from, nearest);
+    return cells == Cells::LIKELY ? march<true>(ray, from, nearest)
+                                  : march<false>(ray, from, nearest);
   });
 }
 

@@ -41,7 +41,7 @@ class GrassVolume {
   void meet(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
   /// Does the same as meet() with BLADE_COLUMNS, and cubes beyond.
-  void meetBlades(const Ray& ray, Hit& nearest) const;
+  void meetBlades(const Ray& ray, Hit& nearest, Cells cells = Cells::LIKELY) const;
 
   /// Adds the optical depth of the grass to a path of light.
   void addDepth(const Ray& ray, LightPath& path) const;
@@ -80,7 +80,8 @@ class GrassVolume {
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
   double boundWithin(const Ray& ray, double from, double to) const;
-  double marchBlades(const Ray& ray, double from, const BladeColumns& form, Hit& nearest) const;
+  double marchBlades(const Ray& ray, double from, const BladeColumns& form, Cells cells,
+                     Hit& nearest) const;
   double meetColumns(ColumnWalk& columns, double to, double bound, Hit& nearest) const;
   double marchLight(const Ray& ray, double from, LightPath& path) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors/geometry/box.h"
 #include "sensors/grass/grass_volume.h"
 #include "sensors/media/beer_lambert.h"
 #include "sensors/media/cell_walk.h"
@@ -38,16 +39,16 @@ double GrassVolume::boundWithin(const Ray& ray, double from, double to) const {
 
 // Steps without grass are left out. Returns the distance at which the ray leaves the layer, hits a
 // blade or has come as far as there are columns.
-double GrassVolume::marchBlades(const Ray& ray, double from, const BladeColumns& form,
+double GrassVolume::marchBlades(const Ray& ray, double from, const BladeColumns& form, Cells cells,
                                 Hit& nearest) const {
   ColumnWalk columns(ray, form.width, static_cast<std::uint32_t>(layout_.seed) ^ BLADE_SEED);
   while (from < std::min(nearest.distance, form.reach)) {
     const double to = std::min(from + BLADE_STRETCH, nearest.distance);
     const double bound = boundWithin(ray, from, to + LONGEST_CROSSING * form.width);
     if (bound < 0.0) return from;
-    if (bound > 0.0) {
+    if (bound > 0.0 || cells == Cells::ALL) {
       columns.enter(from);
-      from = meetColumns(columns, to, bound, nearest);
+      from = meetColumns(columns, to, cells == Cells::ALL ? Box::ENDLESS : bound, nearest);
     } else {
       columns.leave();
       from = to;

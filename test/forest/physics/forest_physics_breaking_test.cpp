@@ -71,7 +71,7 @@ struct Cantilever {
 };
 
 // Euler and Bernoulli: a bar that is fixed at one end and pulled at the other breaks at its foot,
-// when F L = sigma pi r^3 / 4. Tolerance: 5 %, as issue 24 asks; the measured error is the
+// when F L = sigma pi r^3 / 4. Tolerance: 5 %; the measured error is the
 // shortening of the lever by the deflection, which grows with the slenderness.
 TEST(Breaking, CantileverBreaksAtTheForceOfBeamTheory) {
   for (const double slenderness : {20.0, 40.0, 60.0, 90.0}) {
