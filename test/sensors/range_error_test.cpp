@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
+#include <vector>
 
 #include "forest/forest.h"
 #include "scenes/sensors/lidar_scene.h"
@@ -61,13 +63,17 @@ forest::Layout bareTrees() {
   return out;
 }
 
+double quantileOf(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
 struct RangeErrors {
   std::vector<double> all;  ///< of rays that meet the same branch in both [m]
-  std::size_t wood{0};      ///< rays that meet wood in the full model
-  double quantile(double share) {
-    std::sort(all.begin(), all.end());
-    return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))];
-  }
+  /// Distances of the places of branches that rays meet in the full model from the same places of
+  /// the same branches as they are sensed, for all rays to wood [m].
+  std::vector<double> displaced;
+  std::size_t wood{0};  ///< rays that meet wood in the full model
   double mean() const {
     double sum = 0.0;
     for (const double error : all) sum += error;
@@ -77,6 +83,12 @@ struct RangeErrors {
 
 bool isWood(const Hit& hit) {
   return hit.label == Label::TRUNK || hit.label == Label::BRANCH;
+}
+
+const Rod& rodOf(const Sensed& sensed, const Hit& hit) {
+  for (const auto& tree : sensed.trees.all())
+    if (tree->id() == hit.plant) return tree->rods()[tree->partOf(hit.branch)];
+  throw std::out_of_range("a tree that is not sensed");
 }
 
 void addErrors(const Sensed& full, const Sensed& sensed, RangeErrors& out) {
@@ -91,13 +103,20 @@ void addErrors(const Sensed& full, const Sensed& sensed, RangeErrors& out) {
       const Hit right = full.cast(direction), hit = sensed.cast(direction);
       if (!isWood(right)) continue;
       ++out.wood;
+      const Rod& rod = rodOf(full, right);
+      const Rod& other = rodOf(sensed, right);
+      const double along =
+          dot(Vec3(RANGE_SENSOR + right.distance * direction - rod.base), rod.axis);
+      out.displaced.push_back(
+          length(Vec3(rod.base + along * rod.axis - other.base - along * other.axis)));
       if (isWood(hit) && hit.plant == right.plant && hit.branch == right.branch)
         out.all.push_back(std::fabs(hit.distance - right.distance));
     }
 }
 
-// N1: with a sensor that has announced itself, 99 % of the rays that meet the same branch of wood
-// as in the full model have its range within the tolerance; without, far fewer do.
+// N1: with a sensor that has announced itself, what 99 % of the rays to wood meet in the full model
+// is within the tolerance of its place, and so are the ranges of those that meet the same branch;
+// without, far fewer are. A ray past a thin branch may meet one behind it, at any range.
 TEST(RangeError, ToleranceHoldsForNinetyNinePercentOfTheRaysToWood) {
   const wind::Field wind({forest::makeBreeze(1, Vec3(6.0, 2.0, 0.0))}, 3);
   const forest::Layout layout = bareTrees();
@@ -117,13 +136,17 @@ TEST(RangeError, ToleranceHoldsForNinetyNinePercentOfTheRaysToWood) {
     addErrors(full, silent, far);
   }
   for (RangeErrors* each : {&near, &far})
-    std::printf("%s: %zu rays to wood, %.1f %% to the same branch, mean %.1f mm, 99 %% %.1f mm\n",
-                each == &near ? "announced" : "silent", each->wood,
-                100.0 * static_cast<double>(each->all.size()) / static_cast<double>(each->wood),
-                1e3 * each->mean(), 1e3 * each->quantile(0.99));
+    std::printf(
+        "%s: %zu rays to wood, 99 %% displaced by up to %.1f mm; %.1f %% meet the same branch, "
+        "mean "
+        "%.1f mm, 99 %% %.1f mm\n",
+        each == &near ? "announced" : "silent", each->wood, 1e3 * quantileOf(each->displaced, 0.99),
+        100.0 * static_cast<double>(each->all.size()) / static_cast<double>(each->wood),
+        1e3 * each->mean(), 1e3 * quantileOf(each->all, 0.99));
   EXPECT_GT(near.wood, 10000u);
   EXPECT_GT(near.all.size(), near.wood / 2);
-  EXPECT_LE(near.quantile(0.99), TOLERANCE);
+  EXPECT_LE(quantileOf(near.displaced, 0.99), TOLERANCE);
+  EXPECT_LE(quantileOf(near.all, 0.99), TOLERANCE);
   EXPECT_GT(far.mean(), 1.5 * near.mean());
 }
 
