@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <vector>
 
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
@@ -101,6 +104,50 @@ TEST(Camera, ImagesHoldWhatRaysIntoTheSceneMeet) {
   for (const Label label : {Label::NONE, Label::GROUND, Label::TRUNK, Label::BRANCH, Label::LEAF,
                             Label::GRASS, Label::PERSON, Label::FOLIAGE, Label::STEM})
     EXPECT_GT(counts[static_cast<std::size_t>(label)], 0) << static_cast<int>(label);
+}
+
+// N1: depths and labels against a lidar's rays, whose directions are those of a pinhole. They
+// differ where the lidar meets cubes of grass and the camera blades, and by the rounding of depths.
+TEST(Camera, AgreesWithALidarOnGroundAndWood) {
+  const Place place;
+  LensSettings settings;
+  settings.width = 160;
+  settings.height = 120;
+  Camera camera;
+  camera.lens = lensOf(settings);
+  camera.range_max = 60.0;
+  const Images images = takeImages(place.scene, camera, place.pose, {}, Wanted(), alone);
+  std::vector<double> errors;
+  int equal = 0, objects = 0, grass[2] = {0, 0};
+  for (int row = 0; row < settings.height; ++row)
+    for (int column = 0; column < settings.width; ++column) {
+      const auto i = static_cast<std::size_t>(row * settings.width + column);
+      const double x = (column - camera.lens.cx) / camera.lens.fx;
+      const double y = (row - camera.lens.cy) / camera.lens.fy;
+      const Vec3 direction = rotate(place.pose.orientation, Vec3(x, y, 1.0));
+      const Hit hit = cast(place.scene, Ray(place.pose.position, direction / length(direction)),
+                           camera.range_max);
+      const auto label = static_cast<Label>(images.label[i]);
+      grass[0] += hit.label == Label::GRASS;
+      grass[1] += label == Label::GRASS;
+      if (hit.label == Label::GRASS || label == Label::GRASS) continue;
+      ++objects;
+      equal += label == hit.label;
+      const bool solid =
+          hit.label == Label::GROUND || hit.label == Label::TRUNK || hit.label == Label::BRANCH;
+      if (solid && label == hit.label)
+        errors.push_back(std::fabs(double{images.depth[i]} - hit.distance / length(direction)));
+    }
+  std::sort(errors.begin(), errors.end());
+  const double median = errors[errors.size() / 2], most = errors[errors.size() * 99 / 100];
+  std::printf("%zu pixels of ground and wood: median %.1e m, 99 %% %.1e m; %.2f %% of %d labels\n",
+              errors.size(), median, most, 100.0 * equal / objects, objects);
+  EXPECT_GT(errors.size(), 1000u);
+  EXPECT_LE(median, 1e-5);
+  EXPECT_LE(most, 1e-3);  // meetGround() is within 1 mm
+  EXPECT_GE(equal, 0.999 * objects);
+  EXPECT_GT(grass[0], 500);
+  EXPECT_NEAR(grass[1], grass[0], 0.1 * grass[0]);
 }
 
 TEST(Camera, ImagesAreTheSameForAnyNumberOfThreads) {
