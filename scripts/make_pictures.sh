@@ -30,6 +30,7 @@ crowd        | crowd        | 12 |
 hills        | hills        | 9  |
 grove        | grove        | 8  |
 reef         | reef         | 8  |
+vineyard     | vineyard     | 3  |
 scan         | crowd        | 12 |
 other_robot  | crowd        | 14 | Robot/Robot Description=scout/robot_description;Robot/TF Prefix=scout;Forces/Enabled=true;View/Distance=7;View/Yaw=3.9;View/Pitch=0.22;View/Focal Point={X: 0, Y: 0.5, Z: 0.9}
 END
