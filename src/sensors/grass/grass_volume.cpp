@@ -187,10 +187,7 @@ void GrassVolume::visitLayer(const Ray& ray, const Hit& end, March&& march) cons
 }
 
 void GrassVolume::meet(const Ray& ray, Hit& nearest, Cells cells) const {
-  visitLayer(ray, nearest, [&](double from) {
-    return cells == Cells::LIKELY ? march<true>(ray, from, nearest)
-                                  : march<false>(ray, from, nearest);
-  });
+  visitLayer(ray, nearest, [&](double from) { return marchCubes(ray, from, cells, nearest); });
 }
 
 void GrassVolume::meetBlades(const Ray& ray, Hit& nearest, Cells cells) const {
@@ -200,13 +197,17 @@ void GrassVolume::meetBlades(const Ray& ray, Hit& nearest, Cells cells) const {
       from = marchBlades(ray, from, form, cells, nearest);
       if (from < form.reach) return from;
     }
-    return cells == Cells::LIKELY ? march<true>(ray, from, nearest)
-                                  : march<false>(ray, from, nearest);
+    return marchCubes(ray, from, cells, nearest);
   });
 }
 
 void GrassVolume::addDepth(const Ray& ray, LightPath& path) const {
   visitLayer(ray, path.end(), [&](double from) { return marchLight(ray, from, path); });
+}
+
+double GrassVolume::marchCubes(const Ray& ray, double from, Cells cells, Hit& nearest) const {
+  return cells == Cells::LIKELY ? march<true>(ray, from, nearest)
+                                : march<false>(ray, from, nearest);
 }
 
 // Returns the distance at which the ray leaves the layer or hits a blade.

@@ -79,6 +79,7 @@ class GrassVolume {
   void visitLayer(const Ray& ray, const Hit& end, March&& march) const;
   template <bool LIKELY>
   double march(const Ray& ray, double from, Hit& nearest) const;
+  double marchCubes(const Ray& ray, double from, Cells cells, Hit& nearest) const;
   double boundWithin(const Ray& ray, double from, double to) const;
   double marchBlades(const Ray& ray, double from, const BladeColumns& form, Cells cells,
                      Hit& nearest) const;
