@@ -6,9 +6,24 @@
 
 namespace vegetation_sim {
 
+#ifdef __GLIBC__
+namespace {
+
+/// Bytes that the process keeps for later; before glibc 2.33 modulo 2^32.
+std::size_t countFreedBytes() {
+#if __GLIBC_PREREQ(2, 33)
+  return mallinfo2().fordblks;
+#else
+  return static_cast<unsigned>(mallinfo().fordblks);
+#endif
+}
+
+}  // namespace
+#endif
+
 void releaseFreedMemory() {
 #ifdef __GLIBC__
-  if (mallinfo2().fordblks > MOST_FREED_MEMORY) malloc_trim(0);
+  if (countFreedBytes() > MOST_FREED_MEMORY) malloc_trim(0);
 #endif
 }
 
