@@ -4,7 +4,7 @@
 // other engines.
 // usage: physics_bench [--quick] [--branches N,..] [--trees NAME,..] [--loads gust,pull]
 // [--engines PART,..] [--cap SECONDS] [--window SECONDS] [--tolerance ERROR] [--rounds N]
-// [--csv FILE] [--cache FOLDER]
+// [--threads N] [--csv FILE] [--cache FOLDER]
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +14,7 @@
 
 #include "package_folder.h"
 #include "trees/report.h"
+#include "trees/scaling.h"
 
 namespace vegetation_sim::bench {
 namespace {
@@ -27,6 +28,7 @@ struct Options {
   double tolerance{1e-8};               ///< tolerance of references
   double window{INTERVALS * INTERVAL};  ///< time over which motions are compared [s]
   int rounds{7};
+  int threads{1};  ///< if more, a tree on each of them is measured too
 };
 
 std::vector<std::string> split(const std::string& list) {
@@ -66,6 +68,8 @@ Options readOptions(int argc, char** argv) {
       out.window = std::stod(value);
     else if (key == "--tolerance")
       out.tolerance = std::stod(value);
+    else if (key == "--threads")
+      out.threads = std::clamp(std::stoi(value), 1, 64);
     else if (key == "--rounds")
       out.rounds = std::stoi(value);
     else
@@ -76,6 +80,7 @@ Options readOptions(int argc, char** argv) {
 
 std::vector<Maker> allEngines() {
   std::vector<Maker> out = ownEngines();
+  for (const Maker& maker : positionEngines()) out.push_back(maker);
 #ifdef WITH_BULLET
   for (const Maker& maker : bulletEngines()) out.push_back(maker);
 #endif
@@ -84,6 +89,9 @@ std::vector<Maker> allEngines() {
 #endif
 #ifdef WITH_MUJOCO
   for (const Maker& maker : mujocoEngines()) out.push_back(maker);
+#endif
+#ifdef WITH_SIMBODY
+  for (const Maker& maker : simbodyEngines()) out.push_back(maker);
 #endif
   return out;
 }
@@ -188,6 +196,17 @@ std::vector<Rival> build(const TestTree& tree, const TestLoad& load, const Optio
   return out;
 }
 
+void printScaling(const Cell& cell, const TestTree& tree, const TestLoad& load,
+                  const std::vector<Rival>& rivals, const Options& options) {
+  std::printf("trees per second with a tree on each of %d threads, times those on one:",
+              options.threads);
+  for (std::size_t i = 0; i < rivals.size(); ++i)
+    std::printf("%s %s %.2f", i > 0 ? "," : "", rivals[i].maker.name.c_str(),
+                scalingOf(rivals[i].maker, tree, load, options.cache, cell.rows[i].answers[1].steps,
+                          options.threads, options.rounds));
+  std::printf("\n");
+}
+
 int run(const Options& options) {
   if (!options.cache.empty()) std::filesystem::create_directories(options.cache);
   std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
@@ -203,6 +222,7 @@ int run(const Options& options) {
         load = which == "gust" ? gust(tree) : pull(tree);
         cells.push_back(measure(tree, load, rivals, options));
         print(cells.back());
+        if (options.threads > 1) printScaling(cells.back(), tree, load, rivals, options);
         if (csv) write(cells.back(), csv);
       }
     }

@@ -6,6 +6,7 @@ file(GLOB modal_sources CONFIGURE_DEPENDS bench/modal/*.cpp)
 target_sources(modal_bench PRIVATE ${modal_sources} ${tree_sources})
 pkg_check_modules(bullet QUIET IMPORTED_TARGET bullet)
 pkg_check_modules(dart QUIET IMPORTED_TARGET dart)
+pkg_check_modules(simbody QUIET IMPORTED_TARGET simbody)
 find_library(mujoco_library mujoco)  # its CMake target names folders that Debian does not install
 if(mujoco_library)
   add_library(mujoco_peer UNKNOWN IMPORTED)
@@ -16,7 +17,7 @@ function(add_peer name library)
   if(NOT TARGET ${library})
     return()
   endif()
-  set_target_properties(${library} PROPERTIES INTERFACE_COMPILE_OPTIONS "")  # DART asks for C++11
+  set_target_properties(${library} PROPERTIES INTERFACE_COMPILE_OPTIONS "")  # some ask for C++11
   string(TOUPPER ${name} flag)
   target_sources(physics_bench PRIVATE bench/peers/${name}_engine.cpp)
   target_compile_definitions(physics_bench PRIVATE WITH_${flag})
@@ -26,6 +27,7 @@ endfunction()
 add_peer(bullet PkgConfig::bullet)
 add_peer(dart PkgConfig::dart)
 add_peer(mujoco mujoco_peer)
+add_peer(simbody PkgConfig::simbody)
 
 # crowd_bench, likewise. FCL's own flags ask for vectors that Debian's build of it does not have.
 file(GLOB crowd_bench_sources CONFIGURE_DEPENDS bench/crowd/*.cpp)

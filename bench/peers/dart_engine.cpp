@@ -26,11 +26,7 @@ class DartEngine : public Engine {
 
   void step(int interval, double time, double h) override {
     if (skeleton_->getTimeStep() != h) skeleton_->setTimeStep(h);
-    skeleton_->clearExternalForces();
-    const double factor = load_.factor(interval, time + 0.5 * h);
-    for (std::size_t i = 0; factor != 0.0 && i < load_.links.size(); ++i)
-      bodies_[static_cast<std::size_t>(load_.links[i])]->addExtForce(
-          factor * load_.force[i], Eigen::Vector3d(0.0, 0.0, load_.along[i]));
+    push(load_.factor(interval, time + 0.5 * h));
     skeleton_->computeForwardDynamics();
     skeleton_->integrateVelocities(h);
     skeleton_->integratePositions(h);
@@ -42,6 +38,19 @@ class DartEngine : public Engine {
       for (const std::size_t k : {0, 1}) q.push_back(body->getParentJoint()->getPosition(k));
     return tipsOf(tree_, Bend::HINGES, q);
   }
+
+ protected:
+  void push(double factor) {
+    skeleton_->clearExternalForces();
+    for (std::size_t i = 0; factor != 0.0 && i < load_.links.size(); ++i)
+      bodies_[static_cast<std::size_t>(load_.links[i])]->addExtForce(
+          factor * load_.force[i], Eigen::Vector3d(0.0, 0.0, load_.along[i]));
+  }
+
+  const TestTree& tree_;
+  const TestLoad& load_;
+  dart::dynamics::SkeletonPtr skeleton_;
+  std::vector<BodyNode*> bodies_;
 
  private:
   void add(std::size_t index) {
@@ -64,26 +73,59 @@ class DartEngine : public Engine {
     bodies_.push_back(
         skeleton_->createJointAndBodyNodePair<UniversalJoint>(parent, joint, body).second);
   }
-
-  const TestTree& tree_;
-  const TestLoad& load_;
-  dart::dynamics::SkeletonPtr skeleton_;
-  std::vector<BodyNode*> bodies_;
 };
 
-}  // namespace
+// The linearly implicit midpoint with the engine's articulated bodies. The engine takes springs and
+// dampers implicitly over its time step, so it gets half of ours, at positions half a step ahead
+// with the springs' rest ahead by as much. Velocity products are those at the start.
+class MidpointDart final : public DartEngine {
+ public:
+  using DartEngine::DartEngine;
 
-std::vector<Maker> dartEngines() {
+  void rest() override {
+    skeleton_->resetPositions(), skeleton_->resetVelocities();
+    setRest(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(skeleton_->getNumDofs())));
+  }
+
+  void step(int interval, double time, double h) override {
+    if (skeleton_->getTimeStep() != 0.5 * h) skeleton_->setTimeStep(0.5 * h);
+    const Eigen::VectorXd rate = skeleton_->getVelocities();
+    const Eigen::VectorXd ahead = 0.5 * h * rate;
+    skeleton_->setPositions(skeleton_->getPositions() + ahead);
+    setRest(ahead);
+    push(load_.factor(interval, time + 0.5 * h));
+    skeleton_->computeForwardDynamics();
+    const Eigen::VectorXd change = h * skeleton_->getAccelerations();
+    skeleton_->setPositions(skeleton_->getPositions() + ahead + 0.5 * h * change);
+    skeleton_->setVelocities(rate + change);
+  }
+
+ private:
+  void setRest(const Eigen::VectorXd& rest) {
+    Eigen::Index i = 0;
+    for (BodyNode* body : bodies_)
+      for (const std::size_t k : {0, 1}) body->getParentJoint()->setRestPosition(k, rest[i++]);
+  }
+};
+
+template <class ENGINE>
+Maker maker(const char* name) {
   Maker out;
-  out.name = "DART";
+  out.name = name;
   out.peer = true;
   out.bend = Bend::HINGES;
   out.most_branches = 1000;
   out.make = [](const TestTree& tree, const TestLoad& load,
                 const std::string&) -> std::unique_ptr<Engine> {
-    return std::make_unique<DartEngine>(tree, load);
+    return std::make_unique<ENGINE>(tree, load);
   };
-  return {out};
+  return out;
+}
+
+}  // namespace
+
+std::vector<Maker> dartEngines() {
+  return {maker<DartEngine>("DART"), maker<MidpointDart>("DART, our midpoint")};
 }
 
 }  // namespace vegetation_sim::bench

@@ -67,11 +67,17 @@ mjModel* modelOf(const TestTree& tree, const std::string& cache) {
   return out;
 }
 
+// The tree in the engine, stepped by one of its integrators.
 class MujocoEngine : public Engine {
  public:
   MujocoEngine(const TestTree& tree, const TestLoad& load, int integrator, const std::string& cache)
       : tree_(tree), load_(load), model_(modelOf(tree, cache)), data_(mj_makeData(model_)) {
     mju_user_warning = [](const char*) {};  // an unstable step is found by its error, not in a log
+    // It is called at every evaluation, so that Runge-Kutta uses the load of its stages.
+    mjcb_control = [](const mjModel* model, mjData* data) {
+      const bool stages = model->opt.integrator == mjINT_RK4;
+      if (running_) running_->push(stages ? data->time : data->time + 0.5 * model->opt.timestep);
+    };
     model_->opt.integrator = integrator;
     model_->opt.gravity[2] = 0.0;
     model_->opt.disableflags = mjDSBL_CONSTRAINT | mjDSBL_CONTACT | mjDSBL_GRAVITY |
@@ -95,9 +101,8 @@ class MujocoEngine : public Engine {
     data_->time = time;
     interval_ = interval;
     running_ = this;
-    mjcb_control = [](const mjModel*, mjData*) { running_->push(); };
     mj_step(model_, data_);
-    mjcb_control = nullptr;
+    running_ = nullptr;
     for (const int fault : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
       if (data_->warning[fault].number > 0)
         data_->qpos[0] = std::numeric_limits<double>::quiet_NaN();  // the engine has reset itself
@@ -112,17 +117,9 @@ class MujocoEngine : public Engine {
     return tipsOf(tree_, Bend::HINGES, q);
   }
 
- private:
-  struct Wrench {
-    Vec3 force{Vec3::Zero()}, torque{Vec3::Zero()};
-  };
-
-  // Sums the generalised forces in one sweep towards the root; xfrc_applied would cost O(N nv). It
-  // is called at every evaluation, so that Runge-Kutta uses the load of its stages.
-  void push() {
-    const double time = model_->opt.integrator == mjINT_RK4
-                            ? data_->time
-                            : data_->time + 0.5 * model_->opt.timestep;
+ protected:
+  // Sums the generalised forces in one sweep towards the root; xfrc_applied would cost O(N nv).
+  void push(double time) {
     const double factor = load_.factor(interval_, time);
     if (factor == 0.0) {
       mju_zero(data_->qfrc_applied, model_->nv);
@@ -141,6 +138,17 @@ class MujocoEngine : public Engine {
     for (int body = last; body > 0; --body) project(body);
   }
 
+  const TestTree& tree_;
+  const TestLoad& load_;
+  mjModel* model_;
+  mjData* data_;
+  int interval_{0};
+
+ private:
+  struct Wrench {
+    Vec3 force{Vec3::Zero()}, torque{Vec3::Zero()};
+  };
+
   void project(int body) {
     const Wrench& own = wrench_[static_cast<std::size_t>(body)];
     const int joint = model_->body_jntadr[body], parent = model_->body_parentid[body];
@@ -154,35 +162,98 @@ class MujocoEngine : public Engine {
     bearer.torque += own.torque + arm.cross(own.force);
   }
 
-  static MujocoEngine* running_;
-  const TestTree& tree_;
-  const TestLoad& load_;
-  mjModel* model_;
-  mjData* data_;
+  static thread_local MujocoEngine* running_;
   std::vector<int> links_, bodies_;  // of bodies, of links
   std::vector<Wrench> wrench_;       // about the body's joint
-  int interval_{0};
 };
 
-MujocoEngine* MujocoEngine::running_ = nullptr;
+thread_local MujocoEngine* MujocoEngine::running_ = nullptr;
+
+// Our integrator (the linearly implicit midpoint with averaged velocity products) with the engine's
+// dynamics: what springs and dampers add implicitly is armature, h^2 k / 4 + h d / 2.
+class MidpointMujoco final : public MujocoEngine {
+ public:
+  MidpointMujoco(const TestTree& tree, const TestLoad& load, const std::string& cache)
+      : MujocoEngine(tree, load, mjINT_EULER, cache) {
+    for (std::vector<double>* each : {&rate_, &acceleration_, &products_, &change_})
+      each->resize(static_cast<std::size_t>(model_->nv));
+  }
+
+  void step(int interval, double time, double h) override {
+    interval_ = interval;
+    if (h != step_) setStep(h);
+    const int count = model_->nv;
+    mju_copy(rate_.data(), data_->qvel, count);
+    mju_addToScl(data_->qpos, rate_.data(), 0.5 * h, count);
+    mj_kinematics(model_, data_);
+    mj_comPos(model_, data_);
+    mj_crb(model_, data_);
+    mj_factorM(model_, data_);
+    mj_comVel(model_, data_);
+    mj_passive(model_, data_);
+    mj_rne(model_, data_, 0, data_->qfrc_bias);
+    push(time + 0.5 * h);
+    for (int i = 0; i < count; ++i)
+      change_[static_cast<std::size_t>(i)] =
+          data_->qfrc_passive[i] + data_->qfrc_applied[i] - data_->qfrc_bias[i];
+    mj_solveM(model_, data_, acceleration_.data(), change_.data(), 1);
+    averageProducts(h);
+    // The positions are already half a step ahead at the old rate.
+    mju_addToScl(data_->qpos, rate_.data(), 0.5 * h, count);
+    mju_addToScl(data_->qpos, acceleration_.data(), 0.5 * h * h, count);
+    mju_addScl(data_->qvel, rate_.data(), acceleration_.data(), h, count);
+  }
+
+ private:
+  void setStep(double h) {
+    step_ = h;
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      const int dof = model_->jnt_dofadr[joint];
+      model_->dof_armature[dof] =
+          0.25 * h * h * model_->jnt_stiffness[joint] + 0.5 * h * model_->dof_damping[dof];
+    }
+  }
+
+  // Replaces the velocity products at the start by the mean of those at start and end.
+  void averageProducts(double h) {
+    const int count = model_->nv;
+    mju_addScl(data_->qvel, rate_.data(), acceleration_.data(), h, count);
+    mj_comVel(model_, data_);
+    mj_rne(model_, data_, 0, products_.data());
+    mju_sub(change_.data(), data_->qfrc_bias, products_.data(), count);
+    mj_solveM(model_, data_, products_.data(), change_.data(), 1);
+    mju_addToScl(acceleration_.data(), products_.data(), 0.5, count);
+  }
+
+  double step_{0.0};
+  std::vector<double> rate_, acceleration_, products_, change_;
+};
 
 template <int INTEGRATOR>
 std::unique_ptr<Engine> make(const TestTree& tree, const TestLoad& load, const std::string& cache) {
   return std::make_unique<MujocoEngine>(tree, load, INTEGRATOR, cache);
 }
 
+std::unique_ptr<Engine> makeMidpoint(const TestTree& tree, const TestLoad& load,
+                                     const std::string& cache) {
+  return std::make_unique<MidpointMujoco>(tree, load, cache);
+}
+
+Maker maker(const char* name, decltype(Maker::make) make) {
+  Maker out;
+  out.name = name;
+  out.peer = true;
+  out.bend = Bend::HINGES;
+  out.make = make;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Maker> mujocoEngines() {
-  Maker euler, runge;
-  euler.name = "MuJoCo, Euler";
-  euler.peer = true;
-  euler.bend = Bend::HINGES;
-  euler.make = make<mjINT_EULER>;
-  runge = euler;
-  runge.name = "MuJoCo, RK4";
-  runge.make = make<mjINT_RK4>;
-  return {euler, runge};
+  return {maker("MuJoCo, Euler", make<mjINT_EULER>), maker("MuJoCo, RK4", make<mjINT_RK4>),
+          maker("MuJoCo, implicit", make<mjINT_IMPLICIT>),
+          maker("MuJoCo, our midpoint", makeMidpoint)};
 }
 
 }  // namespace vegetation_sim::bench

@@ -34,10 +34,13 @@ struct Maker {
 
 /// Returns our engines: every integrator in plain double, and the midpoint on wide vectors.
 std::vector<Maker> ownEngines();
+/// Returns extended position-based dynamics, which has no engine of its own in Debian.
+std::vector<Maker> positionEngines();
 /// Return the engines of others, as far as this build includes them.
 std::vector<Maker> bulletEngines();
 std::vector<Maker> dartEngines();
 std::vector<Maker> mujocoEngines();
+std::vector<Maker> simbodyEngines();
 
 /// Returns the tips of a tree whose joints are bent by `q` [links][2].
 std::vector<Vec3> tipsOf(const TestTree& tree, Bend bend, const std::vector<double>& q);

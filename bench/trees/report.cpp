@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trees/report.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace vegetation_sim::bench {
 namespace {
@@ -13,14 +13,40 @@ const char* markOf(Answer::Kind kind) {
   return marks[static_cast<int>(kind)];
 }
 
+// Prints the ratios of a peer, or of the best one, to an engine.
+void printRatios(const std::vector<Cell>& cells, const std::string& engine,
+                 const std::string& peer) {
+  std::printf("%-26s %-26s", engine.c_str(), peer.empty() ? "best peer" : peer.c_str());
+  for (std::size_t k = 0; k < TARGETS.size(); ++k) {
+    double logs = 0.0, least = 0.0;
+    int count = 0, bounds = 0;
+    for (const Cell& cell : cells)
+      for (const Row& row : cell.rows) {
+        if (row.engine != engine) continue;
+        const Ratio ratio = ratioOf(cell, row, k, peer);
+        if (ratio.value <= 0.0) continue;
+        least = count == 0 ? ratio.value : std::min(least, ratio.value);
+        logs += std::log(ratio.value);
+        ++count;
+        bounds += ratio.bound;
+      }
+    if (count == 0)
+      std::printf(" | %.0e %29s", TARGETS[k], "never");
+    else
+      std::printf(" | %.0e %7.2f %8.1f %4d (%3d)  ", TARGETS[k], least, std::exp(logs / count),
+                  count, bounds);
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
-Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target) {
+Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target, const std::string& peer) {
   Ratio out;
   double best = 0.0;
   for (const Row& row : cell.rows) {
-    if (!row.peer || row.answers[target].kind == Answer::Kind::NEVER ||
-        (best > 0.0 && row.cost(target) >= best))
+    if (peer.empty() ? !row.peer : row.engine != peer) continue;
+    if (row.answers[target].kind == Answer::Kind::NEVER || (best > 0.0 && row.cost(target) >= best))
       continue;
     best = row.cost(target);
     out = {best / own.cost(target), row.answers[target].kind == Answer::Kind::AT_LEAST, row.engine};
@@ -63,25 +89,23 @@ void print(const Cell& cell) {
 }
 
 void printSummary(const std::vector<Cell>& cells) {
-  struct Sum {
-    double logs{0.0}, least{0.0};
-    int count{0};
+  std::vector<std::string> peers, own;
+  const auto keep = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
-  std::map<std::string, Sum> sums;
   for (const Cell& cell : cells)
-    for (const Row& row : cell.rows)
-      for (std::size_t k = 0; row.fast && k < TARGETS.size(); ++k) {
-        const double ratio = ratioOf(cell, row, k).value;
-        if (ratio <= 0.0) continue;
-        Sum& sum = sums[row.engine];
-        sum.least = sum.count == 0 ? ratio : std::min(sum.least, ratio);
-        sum.logs += std::log(ratio);
-        ++sum.count;
-      }
-  std::printf("\nover the best peer at equal accuracy\n");
-  for (const auto& [engine, sum] : sums)
-    std::printf("%-26s least %6.1f times, geometric mean %6.1f times, %d cells\n", engine.c_str(),
-                sum.least, std::exp(sum.logs / sum.count), sum.count);
+    for (const Row& row : cell.rows) {
+      if (row.peer) keep(peers, row.engine);
+      if (row.fast) keep(own, row.engine);
+    }
+  peers.emplace_back();
+  std::printf("\ntimes faster at equal error: least, geometric mean, cells (lower bounds)\n");
+  for (const std::string& engine : own)
+    for (const std::string& peer : peers) printRatios(cells, engine, peer);
+  std::printf("\nparts of it: geometric means\n");
+  printRatios(cells, "MuJoCo, our midpoint", "MuJoCo, Euler");
+  printRatios(cells, "midpoint, plain double", "MuJoCo, our midpoint");
+  printRatios(cells, "midpoint, SIMD, one tree", "midpoint, plain double");
 }
 
 void writeHead(std::FILE* file) {
@@ -101,8 +125,9 @@ void write(const Cell& cell, std::FILE* file) {
                    error, steps / INTERVAL, 1e3 * steps / INTERVAL * each, instants, note);
     };
     for (const Point& point : row.points) {
-      const bool coarse = point.steps <= row.answers[0].steps;
-      line(point.error, point.steps, row.step_seconds[coarse ? 0 : 1], point.instants, "run");
+      std::size_t k = 0;  // the time of a step was measured at the answers
+      while (k + 1 < TARGETS.size() && point.steps > row.answers[k].steps) ++k;
+      line(point.error, point.steps, row.step_seconds[k], point.instants, "run");
     }
     for (std::size_t k = 0; k < TARGETS.size(); ++k) {
       const Answer& answer = row.answers[k];

@@ -11,7 +11,7 @@
 
 namespace vegetation_sim::bench {
 
-constexpr std::array<double, 2> TARGETS{1e-2, 1e-3};  ///< relative error of tips
+constexpr std::array<double, 3> TARGETS{1e-1, 1e-2, 1e-3};  ///< relative error of tips
 
 /// Results of one engine for one tree and load.
 struct Row {
@@ -34,19 +34,19 @@ struct Cell {
   std::vector<Row> rows;
 };
 
-/// The best peer's cost over ours. `bound`: the peer's cost is a lower bound, so the ratio is one
-/// too.
+/// A peer's cost over ours. `bound`: the peer's cost is a lower bound, so the ratio is one too.
 struct Ratio {
   double value{0.0};
   bool bound{false};
   std::string peer;
 };
-/// Returns zero if there is no peer.
-Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target);
+/// Returns the ratio of the best peer, or of the one named; zero if there is none.
+Ratio ratioOf(const Cell& cell, const Row& own, std::size_t target, const std::string& peer = "");
 
 /// Prints a table of the cell.
 void print(const Cell& cell);
-/// Prints the smallest and the geometric mean of all ratios for each of our engines.
+/// Prints the smallest and the geometric mean of the ratios of each of our engines to each peer and
+/// to the best, and the parts that integrator, dynamics and vectors have in them.
 void printSummary(const std::vector<Cell>& cells);
 /// Write one line per point and one per target.
 void writeHead(std::FILE* file);

@@ -16,7 +16,7 @@ import rostest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / 'scripts/charts/charts'
 sys.path.insert(0, str(PROGRAM.parent))
-from charting import registry, style, tables  # noqa: E402
+from charting import registry, stamp, style, tables  # noqa: E402
 from charting.chart import RequestError  # noqa: E402
 
 LADDER = 'ladder,tier,setting,cost,error,chosen\n'
@@ -193,6 +193,48 @@ class Charts(unittest.TestCase):
         for name in names:
             self.assert_drawn(name)
 
+    # A documented chart is of the sources as they are now, and says of which commit and machine.
+    def test_documented_charts_are_of_the_present_sources(self):
+        folder = ROOT / 'docs/charts'
+        stamps = stamp.read_all(folder)
+        for name in sorted(table.stem for table in folder.glob('*.csv')):
+            with self.subTest(name):
+                self.assertIn(name, stamps, 'the chart has no stamp; measure it with --only')
+                sources = registry.all_charts()[name].sources
+                self.assertEqual(stamps[name]['sources'], stamp.hash_of(sources, ROOT),
+                                 '%s have changed since the chart was measured: run charts --only '
+                                 '%s --out docs/charts' % (', '.join(sources), name))
+                self.assertRegex(stamps[name]['commit'], '^[0-9a-f]{7,40}$')
+                self.assertIn('cores', stamps[name]['machine'])
+
+    def test_charts_tell_their_commit_and_machine(self):
+        space = self.bench('grass_tile_bench', 'printf "%s" > $FILE' % LADDER.replace('\n', '\\n'))
+        for tier in range(6):
+            self.bench_line('grass_tile_bench', 'arc', tier)
+        done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, **space)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        written = stamp.read_all(self.out)['grass_ladder']
+        self.assertEqual(written['extent'], 'usual')
+        self.assertEqual(written['sources'], stamp.hash_of(
+            registry.all_charts()['grass_ladder'].sources, ROOT))
+        self.assertIn(stamp.text_of(written), (self.out / 'grass_ladder.svg').read_text())
+
+    def test_comments_and_spaces_do_not_age_a_chart_but_code_does(self):
+        folder, file = self.folder / 'src/grass', self.folder / 'src/grass/blade.cpp'
+        header = self.folder / 'include/vegetation_sim/grass/blade.h'
+        folder.mkdir(parents=True)
+        header.parent.mkdir(parents=True)
+        header.write_text('int blades();')
+        hashes = []
+        for text in ('int a = 1;', '// one\nint  a\n= /* not 2 */ 1;', 'int a = 2;',
+                     'auto a = "package://x";', 'auto a = "package://y";'):
+            file.write_text(text)
+            hashes.append(stamp.hash_of(['src/grass'], self.folder))
+        self.assertEqual(hashes[0], hashes[1])
+        self.assertEqual(len(set(hashes)), 4)
+        header.write_text('long blades();')
+        self.assertNotEqual(stamp.hash_of(['src/grass'], self.folder), hashes[-1])
+
     def test_front_has_the_points_that_no_other_point_beats(self):
         points = [(1, 9), (2, 9), (2, 5), (3, 6), (4, 1), (5, float('nan')), (6, 1)]
         self.assertEqual(style.front(points), [(1, 9), (2, 5), (4, 1)])
@@ -211,6 +253,9 @@ class Charts(unittest.TestCase):
             self.assertTrue(chart.about and chart.columns, chart.name)
             self.assertEqual(set(chart.runs), {'quick', 'usual', 'full'})
             self.assertTrue((ROOT / 'bench' / (chart.bench + '.cpp')).exists(), chart.bench)
+            self.assertIn('bench/%s.cpp' % chart.bench, chart.sources)
+            for source in chart.sources:
+                self.assertTrue(stamp.files_of([source], ROOT), source)
 
 
 if __name__ == '__main__':

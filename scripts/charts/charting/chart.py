@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The description of a chart."""
 from dataclasses import dataclass, field
-from typing import Callable, Dict, List
+from typing import Callable, Dict, List, Tuple
 
 EXTENTS = ('quick', 'usual', 'full')
 
@@ -19,6 +19,8 @@ class Chart:
     bench: str  # program of this package
     columns: Dict[str, type]  # of the table, in its order: str or float
     draw: Callable  # rows -> figure
+    # Files, and folders with their headers, after whose change the chart has to be made again.
+    sources: Tuple[str, ...]
     # Arguments of each run of the bench, by extent; the rows of all runs form one table. The default
     # is one run, whose length the bench adapts to the extent.
     runs: Dict[str, List[List[str]]] = field(default_factory=lambda: {

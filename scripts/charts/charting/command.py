@@ -3,18 +3,21 @@
 """charts [--quick | --full] [--only NAME,..] [--out DIR] [--redraw]
 
 Measures every method of the package that has a chart, and draws it. Writes DIR/NAME.csv, .png and
-.svg, the output of the bench in NAME.log, and converged references in DIR/references.
+.svg, the output of the bench in NAME.log, converged references in DIR/references, and the commit
+and the machine of each chart in DIR/charts.json.
 """
 import argparse
 from concurrent import futures
 import os
 import pathlib
 import sys
+import threading
 import time
 
-from charting import benches, registry, style, tables
+from charting import benches, registry, stamp, style, tables
 from charting.chart import RequestError
 
+STAMPING = threading.Lock()  # all charts have their stamps in one file
 AT_ONCE = {'quick': 2, 'usual': 1, 'full': 1}  # benches; they measure processor time
 
 
@@ -67,6 +70,8 @@ def measure(chart, program, extent, out, progress):
             log.write('%s %s\n' % (program.name, ' '.join(arguments)))
             benches.run(program, [*arguments, *more, '--csv', str(parts[-1])], log, progress)
     tables.join(parts, out / (chart.name + '.csv'), chart.columns)
+    with STAMPING:
+        stamp.write(out, chart, extent)
     return progress.seconds()
 
 
@@ -97,7 +102,8 @@ def draw_all(begun, out):
         try:
             seconds = wait_for(measured, progress)
             rows = tables.read(out / (chart.name + '.csv'), chart.columns)
-            style.save(chart.draw(rows), out / chart.name)
+            line = stamp.text_of(stamp.read_all(out).get(chart.name))
+            style.save(chart.draw(rows), out / chart.name, line)
             print('  %s.png and .svg, %.0f s' % (out / chart.name, seconds), flush=True)
         except RequestError as error:
             failed += 1

@@ -21,6 +21,7 @@ YELLOW, BLUE, RED, PINK, GREY = '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#99
 COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY)
 MARKERS = 'osD^vPX<>*'
 FRONT = '#D9D9D9'
+STRIP = 0.16  # height of the line below a chart [inch]
 DOTS_PER_INCH = 96
 HALO = [withStroke(linewidth=1.5, foreground='white')]  # behind words that a curve may cross
 
@@ -114,23 +115,35 @@ def edges_of(centres):
     return [2 * centres[0] - middles[0], *middles, 2 * centres[-1] - middles[-1]]
 
 
+def leave_below(out, height):
+    """Keeps a height [inch] below the axes free."""
+    share = height / out.get_figheight()
+    if hasattr(out, 'get_layout_engine'):
+        out.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
+    else:  # Matplotlib before 3.6
+        out.set_constrained_layout(False)
+        out.tight_layout(rect=(0.0, share, 1.0, 0.95))
+
+
 def legend_below(out, axes, columns=4):
     """Draws one legend below all axes, with each name once."""
     handles = {}
     for each in axes:
         handles.update({name: line for line, name in zip(*each.get_legend_handles_labels())})
     lines = math.ceil(len(handles) / columns)
-    height = (0.2 * lines + 0.1) / out.get_figheight()
-    if hasattr(out, 'get_layout_engine'):
-        out.get_layout_engine().set(rect=(0.0, height, 1.0, 1.0 - height))
-    else:  # Matplotlib before 3.6
-        out.set_constrained_layout(False)
-        out.tight_layout(rect=(0.0, height, 1.0, 0.95))
-    out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns)
+    leave_below(out, STRIP + 0.2 * lines + 0.1)
+    out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns,
+               bbox_to_anchor=(0.5, STRIP / out.get_figheight()))
 
 
-def save(out, path):
-    """Saves as PNG and SVG, without a date, so that equal figures give equal files."""
+def save(out, path, stamp=''):
+    """Saves as PNG and SVG, without a date, so that equal figures give equal files.
+
+    `stamp` is the line below the chart.
+    """
+    if not out.legends:
+        leave_below(out, STRIP)
+    out.text(0.995, 0.04 / out.get_figheight(), stamp, ha='right', fontsize=6.5, color='0.35')
     picture = io.BytesIO()
     out.savefig(picture, format='png', dpi=DOTS_PER_INCH)
     few = Image.open(picture).convert('RGB').quantize(255, dither=0)

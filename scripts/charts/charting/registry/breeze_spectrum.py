@@ -36,5 +36,7 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/wind', 'bench/breeze_spectrum.cpp')
 CHART = Chart('breeze_spectrum', 'spectrum, mean and rms of a breeze', 'breeze_spectrum',
-              {'quantity': str, 'seed_or_hz': float, 'measured': float, 'stated': float}, draw)
+              {'quantity': str, 'seed_or_hz': float, 'measured': float, 'stated': float},
+              draw, SOURCES)

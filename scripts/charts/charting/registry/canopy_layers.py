@@ -32,6 +32,8 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/canopy/layers', 'src/canopy/flow', 'src/canopy/plane', 'bench/canopy_bench.cpp')
 CHART = Chart('canopy_layers', 'error and cost of layers against every leaf on its own',
-              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float}, draw,
+              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
+              draw, SOURCES,
               sized('--part', 'truth'))

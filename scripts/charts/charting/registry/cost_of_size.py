@@ -45,5 +45,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/tree', 'src/forest', 'src/grass', 'src/crowd', 'bench/size_bench.cpp')
 CHART = Chart('cost_of_size', 'cost over the number of trees, branches, blades, nodes',
-              'size_bench', {'series': str, 'size': float, 'seconds': float}, draw)
+              'size_bench', {'series': str, 'size': float, 'seconds': float}, draw, SOURCES)

@@ -36,6 +36,8 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/canopy/layers', 'src/canopy/flow', 'src/canopy/plane', 'bench/canopy_bench.cpp')
 CHART = Chart('delay_ladder', 'error and cost of delayed layers',
-              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float}, draw,
+              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
+              draw, SOURCES,
               sized('--part', 'delays'))

@@ -34,6 +34,8 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/canopy/flow', 'src/canopy/plane', 'src/reference/canopy', 'bench/canopy_bench.cpp')
 CHART = Chart('fluid_ladder', 'error and cost of schemes and sizes of the air of leafy masses',
-              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float}, draw,
+              'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
+              draw, SOURCES,
               sized('--part', 'steps,errors'))

@@ -46,5 +46,7 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/tree', 'src/forest', 'src/grass', 'src/crowd', 'src/canopy', 'bench/frame',
+           'bench/frame_bench.cpp')
 CHART = Chart('frame_time', 'processor time of the parts of a frame in each scenario', 'frame_bench',
-              {'scenario': str, 'part': str, 'ms': float, 'ms_99': float}, draw)
+              {'scenario': str, 'part': str, 'ms': float, 'ms_99': float}, draw, SOURCES)

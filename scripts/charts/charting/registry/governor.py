@@ -47,5 +47,6 @@ def draw(rows):
     return figure
 
 
-CHART = Chart('governor', 'ever more trees on one budget', 'governor_bench', COLUMNS, draw,
+SOURCES = ('src/core/lod', 'src/tree/lod', 'src/forest/detail', 'bench/governor_bench.cpp')
+CHART = Chart('governor', 'ever more trees on one budget', 'governor_bench', COLUMNS, draw, SOURCES,
               sized('--part', 'budget'))

@@ -32,5 +32,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/grass/blades', 'src/grass/lod', 'bench/grass_tile_bench.cpp')
 CHART = Chart('grass_ladder', 'error and cost of grass: segments, strips, blades',
-              'grass_tile_bench', ladders.COLUMNS, draw)
+              'grass_tile_bench', ladders.COLUMNS, draw, SOURCES)

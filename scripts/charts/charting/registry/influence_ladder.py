@@ -37,5 +37,6 @@ def label(row):
     return '%g mm' % (1e3 * float(row.setting))
 
 
+SOURCES = ('src/tree/physical', 'src/dynamics', 'bench/influence_bench.cpp')
 CHART = Chart('influence_ladder', 'error and cost of making some branches physical',
-              'influence_bench', ladders.COLUMNS, draw)
+              'influence_bench', ladders.COLUMNS, draw, SOURCES)

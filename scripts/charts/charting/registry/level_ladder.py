@@ -19,5 +19,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/tree/lod', 'src/tree/motion', 'bench/forest_bench.cpp')
 CHART = Chart('level_ladder', 'error and cost of levels of procedural motion', 'forest_bench',
-              ladders.COLUMNS, draw, sized('--part', 'levels'))
+              ladders.COLUMNS, draw, SOURCES, sized('--part', 'levels'))

@@ -57,5 +57,7 @@ def draw_load(axes, load, rows):
                 '%s, %d branches' % (load, branches))
 
 
-CHART = Chart('modal_ladder', 'error and cost of a tree in modes', 'modal_bench', COLUMNS, draw,
+SOURCES = ('src/dynamics', 'bench/modal', 'bench/trees', 'bench/modal_bench.cpp')
+CHART = Chart('modal_ladder', 'error and cost of a tree in modes', 'modal_bench', COLUMNS,
+              draw, SOURCES,
               cached=True)

@@ -26,5 +26,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/canopy/flow', 'bench/courant_bench.cpp')
 CHART = Chart('stability_courant', "growth of waves in a leaf field over Courant's number",
-              'courant_bench', COLUMNS, draw)
+              'courant_bench', COLUMNS, draw, SOURCES)

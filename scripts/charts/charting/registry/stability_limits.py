@@ -45,5 +45,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/dynamics', 'bench/stability_bench.cpp')
 CHART = Chart('stability_limits', 'largest stable step over stiffness and size',
-              'stability_bench', COLUMNS, draw, sized('--part', 'joints,trees'))
+              'stability_bench', COLUMNS, draw, SOURCES, sized('--part', 'joints,trees'))

@@ -58,5 +58,6 @@ def explain(axes, more):
               va='top', fontsize=9)
 
 
+SOURCES = ('src/dynamics', 'bench/stability_bench.cpp')
 CHART = Chart('stability_map', 'growth per step over damping and step, theory over it',
-              'stability_bench', COLUMNS, draw, sized('--part', 'growth'))
+              'stability_bench', COLUMNS, draw, SOURCES, sized('--part', 'growth'))

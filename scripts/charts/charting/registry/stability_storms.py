@@ -28,5 +28,6 @@ def draw(rows):
     return figure
 
 
+SOURCES = ('src/dynamics', 'bench/stability_bench.cpp')
 CHART = Chart('stability_storms', 'the default in a storm over step and spread of stiffness',
-              'stability_bench', COLUMNS, draw, sized('--part', 'storms'))
+              'stability_bench', COLUMNS, draw, SOURCES, sized('--part', 'storms'))

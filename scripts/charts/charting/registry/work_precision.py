@@ -20,6 +20,12 @@ STYLES = {
     'DART': (style.PINK, 'D', '--', 'DART'),
     'MuJoCo, Euler': (style.BLUE, 'P', '--', 'MuJoCo, Euler'),
     'MuJoCo, RK4': (style.BLACK, 'X', '--', 'MuJoCo, RK4'),
+    'MuJoCo, implicit': (style.GREEN, 'P', '--', 'MuJoCo, implicit'),
+    'MuJoCo, our midpoint': (style.BLUE, '*', '--', 'MuJoCo, our midpoint'),
+    'DART, our midpoint': (style.PINK, '*', '--', 'DART, our midpoint'),
+    'Simbody, Euler': (style.GREY, 's', '--', 'Simbody, Euler'),
+    'Simbody, RK4': (style.GREY, 'X', '--', 'Simbody, RK4'),
+    'position-based': (style.ORANGE, 'D', '--', 'position-based'),
 }
 DEFAULT = 'midpoint, plain double'
 STEPS = 240.0  # per second, of the default
@@ -68,7 +74,7 @@ def panel(axes, engines):
     if DEFAULT in engines:
         near = min(engines[DEFAULT], key=lambda p: abs(math.log(p[2] / STEPS)))
         style.ring(axes, near[0], near[1], 'default, 1/%.0f s' % near[2])
-    for target in (1e-2, 1e-3):
+    for target in (1e-1, 1e-2, 1e-3):
         axes.axhline(target, color='0.5', linewidth=0.8, linestyle=':')
     least = min(p[1] for points in engines.values() for p in points)
     axes.set_ylim(min(1e-4, 0.3 * least), 2.0)
@@ -105,6 +111,7 @@ def runs(extent):
             ['--trees', 'fractal,oak', '--branches', '10000', '--window', '1', '--cap', '60']]
 
 
+SOURCES = ('src/dynamics', 'bench/trees', 'bench/peers', 'bench/physics_bench.cpp')
 CHART = Chart('work_precision', 'error and cost of every integrator, dynamics and peer',
-              'physics_bench', COLUMNS, draw,
+              'physics_bench', COLUMNS, draw, SOURCES,
               {extent: runs(extent) for extent in ('quick', 'usual', 'full')}, cached=True)

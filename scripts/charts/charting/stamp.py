@@ -1,0 +1,87 @@
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where charts come from: commit, machine and sources of each, in DIR/charts.json."""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+
+FILE = 'charts.json'
+ROOT = pathlib.Path(__file__).resolve().parents[3]  # of the package's sources, unless installed
+# Strings are kept, comments become spaces.
+COMMENTS = re.compile(r'("(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\')|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+
+def code_of(text):
+    """Returns C++ code without comments and white space."""
+    return re.sub(r'\s+', '', COMMENTS.sub(lambda match: match.group(1) or ' ', text))
+
+
+def files_of(sources, root=ROOT):
+    """Returns the C++ files of sources: files, and folders with their headers in include."""
+    out = set()
+    for source in sources:
+        path = root / source
+        if path.is_file():
+            out.add(path)
+            continue
+        headers = root / source.replace('src/', 'include/vegetation_sim/', 1)
+        for folder in {path, headers}:
+            out.update(file for file in folder.rglob('*') if file.suffix in ('.h', '.cpp'))
+    return sorted(out)
+
+
+def hash_of(sources, root=ROOT):
+    """Returns a hash of the code of sources, which comments and white space do not change."""
+    out = hashlib.sha1()
+    for file in files_of(sources, root):
+        out.update(('%s\n%s\n' % (file.relative_to(root), code_of(file.read_text()))).encode())
+    return out.hexdigest()[:16]
+
+
+def machine():
+    """Returns the name of the processor and the number of its cores."""
+    name = 'unknown processor'
+    try:
+        text = pathlib.Path('/proc/cpuinfo').read_text()
+        names = re.findall(r'^model name\s*: (.*)$', text, re.MULTILINE)
+        name = names[0].strip() if names else name
+    except OSError:
+        pass
+    return '%s, %d cores' % (name, len(os.sched_getaffinity(0)))
+
+
+def commit():
+    """Returns the commit of the sources, with + if files have changed since; else 'unknown'."""
+    def git(*words):
+        return subprocess.run(['git', '-C', str(ROOT), *words], capture_output=True, text=True,
+                              check=True).stdout.strip()
+    try:
+        changed = git('status', '--porcelain', '--untracked-files=no', '--', '.',
+                      ':!docs', ':!scripts/charts')
+        return git('rev-parse', '--short=10', 'HEAD') + ('+' if changed else '')
+    except (OSError, subprocess.CalledProcessError):
+        return 'unknown'
+
+
+def read_all(folder):
+    """Returns the stamps of the charts in a folder by name."""
+    path = folder / FILE
+    return json.loads(path.read_text()) if path.exists() else {}
+
+
+def write(folder, chart, extent):
+    """Stamps a chart that has been measured now."""
+    stamps = read_all(folder)
+    stamps[chart.name] = {'commit': commit(), 'machine': machine(), 'extent': extent,
+                          'sources': hash_of(chart.sources)}
+    (folder / FILE).write_text(json.dumps(stamps, indent=1, sort_keys=True) + '\n')
+
+
+def text_of(stamp):
+    """Returns the line below a chart."""
+    if not stamp:
+        return ''
+    return 'commit %s, %s, %s' % (stamp['commit'], stamp['machine'], stamp['extent'])
