@@ -71,7 +71,10 @@ mjModel* modelOf(const TestTree& tree, const std::string& cache) {
 class MujocoEngine : public Engine {
  public:
   MujocoEngine(const TestTree& tree, const TestLoad& load, int integrator, const std::string& cache)
-      : tree_(tree), load_(load), model_(modelOf(tree, cache)), data_(mj_makeData(model_)) {
+      : tree_(tree), load_(load), model_(modelOf(tree, cache)) {
+    // Derivatives of velocity products need memory of the order of the branches squared.
+    if (integrator == mjINT_IMPLICIT) model_->nstack += 100 * model_->nbody * model_->nv;
+    data_ = mj_makeData(model_);
     mju_user_warning = [](const char*) {};  // an unstable step is found by its error, not in a log
     // It is called at every evaluation, so that Runge-Kutta uses the load of its stages.
     mjcb_control = [](const mjModel* model, mjData* data) {
@@ -141,7 +144,7 @@ class MujocoEngine : public Engine {
   const TestTree& tree_;
   const TestLoad& load_;
   mjModel* model_;
-  mjData* data_;
+  mjData* data_{nullptr};
   int interval_{0};
 
  private:
@@ -239,8 +242,10 @@ std::unique_ptr<Engine> makeMidpoint(const TestTree& tree, const TestLoad& load,
   return std::make_unique<MidpointMujoco>(tree, load, cache);
 }
 
-Maker maker(const char* name, decltype(Maker::make) make) {
+Maker maker(const char* name, decltype(Maker::make) make,
+            int most_branches = Maker().most_branches) {
   Maker out;
+  out.most_branches = most_branches;
   out.name = name;
   out.peer = true;
   out.bend = Bend::HINGES;
@@ -252,7 +257,7 @@ Maker maker(const char* name, decltype(Maker::make) make) {
 
 std::vector<Maker> mujocoEngines() {
   return {maker("MuJoCo, Euler", make<mjINT_EULER>), maker("MuJoCo, RK4", make<mjINT_RK4>),
-          maker("MuJoCo, implicit", make<mjINT_IMPLICIT>),
+          maker("MuJoCo, implicit", make<mjINT_IMPLICIT>, 100),
           maker("MuJoCo, our midpoint", makeMidpoint)};
 }
 

@@ -3,6 +3,8 @@
 #include <SimTKsimbody.h>
 
 #include <array>
+#include <exception>
+#include <limits>
 
 #include "trees/engine.h"
 
@@ -22,9 +24,20 @@ class SimbodyEngine : public Engine {
     body_forces_.resize(matter_.getNumBodies());
   }
 
-  void rest() override { state_ = start_; }
+  void rest() override { state_ = start_, broken_ = false; }
+
+  // The engine throws once a state is not finite.
+  void step(int interval, double time, double h) override {
+    try {
+      if (!broken_) take(interval, time, h);
+    } catch (const std::exception&) {
+      broken_ = true;
+    }
+  }
 
   std::vector<Vec3> tips() const override {
+    constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    if (broken_) return {tree_.tips().size(), Vec3::Constant(NO_NUMBER)};
     std::vector<double> q;
     for (const SimTK::MobilizedBody& body : bodies_)
       for (const int k : {0, 1}) q.push_back(body.getOneQ(state_, k));
@@ -32,9 +45,10 @@ class SimbodyEngine : public Engine {
   }
 
  protected:
-  // Returns the accelerations of the state under the load at a time.
+  virtual void take(int interval, double time, double h) = 0;
+  // Returns the accelerations of the state under the load.
   const SimTK::Vector& evaluate(double factor) {
-    system_.realize(state_, SimTK::Stage::Velocity);
+    system_.realize(state_, SimTK::Stage::Dynamics);
     body_forces_.setToZero();
     for (std::size_t i = 0; factor != 0.0 && i < load_.links.size(); ++i) {
       const SimTK::MobilizedBody& body = bodies_[static_cast<std::size_t>(load_.links[i])];
@@ -74,6 +88,7 @@ class SimbodyEngine : public Engine {
   SimTK::SimbodyMatterSubsystem matter_;
   SimTK::Array_<SimTK::MobilizedBody> bodies_;
   SimTK::State start_;
+  bool broken_{false};
   SimTK::Vector joint_forces_, acceleration_;
   SimTK::Vector_<SimTK::SpatialVec> body_forces_, motions_;
 };
@@ -81,7 +96,7 @@ class SimbodyEngine : public Engine {
 class EulerSimbody final : public SimbodyEngine {
  public:
   using SimbodyEngine::SimbodyEngine;
-  void step(int interval, double time, double h) override {
+  void take(int interval, double time, double h) override {
     state_.updU() += h * evaluate(factor(interval, time + 0.5 * h));
     state_.updQ() += h * state_.getU();
   }
@@ -90,7 +105,7 @@ class EulerSimbody final : public SimbodyEngine {
 class RungeKuttaSimbody final : public SimbodyEngine {
  public:
   using SimbodyEngine::SimbodyEngine;
-  void step(int interval, double time, double h) override {
+  void take(int interval, double time, double h) override {
     constexpr std::array<double, 4> AHEAD{0.0, 0.5, 0.5, 1.0}, WEIGHT{1.0, 2.0, 2.0, 1.0};
     const SimTK::Vector q = state_.getQ(), rate = state_.getU();
     SimTK::Vector turn(q.size(), 0.0), change(q.size(), 0.0);
