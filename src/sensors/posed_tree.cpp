@@ -30,12 +30,14 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, fore
       paint_(forest.layout().species.at(tree_.seed.species), tree_.seed.seed),
       poser_(tree_),
       origin_(tree_.foot) {
-  const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
-  rods_.resize(branches.size());
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    rods_[i].length = branches[i].length;
-    rods_[i].base_radius = branches[i].base_radius;
-    rods_[i].tip_radius = branches[i].tip_radius;
+  const std::vector<forest::Branch>& grown = tree_.skeleton.branches;
+  branches_.resize(grown.size());
+  for (std::size_t i = 0; i < grown.size(); ++i) {
+    branches_[i].rod.length = grown[i].length;
+    branches_[i].rod.base_radius = grown[i].base_radius;
+    branches_[i].rod.tip_radius = grown[i].tip_radius;
+    branches_[i].trunk = grown[i].depth == 0;
+    branches_[i].gone = grown[i].broken;
   }
   addLeaves(forest.layout().species.at(tree_.seed.species));
   if (piece_)
@@ -43,35 +45,33 @@ PosedTree::PosedTree(const forest::ForestReplica& forest, std::uint32_t id, fore
   else
     poser_.pose(wind::Instant(), forest::Weights{}, tree_.skeleton.depths(), poses_);
   placeRods();
-  rod_tree_.build(rods_, leaf_radii_, origin_);
+  rod_tree_.build(
+      parts(), [this](std::size_t i) { return roomyRod(i); }, origin_);
 }
 
 // The leaf clusters of a twig are spread evenly over their reach.
 void PosedTree::addLeaves(const forest::Species& species) {
   const std::vector<forest::Branch>& branches = tree_.skeleton.branches;
-  leaves_.resize(branches.size());
-  leaf_radii_.assign(branches.size(), 0.0);
   const double scale = std::sqrt(tree_.skeleton.trunk_radius / species.trunk_radius);
   const double edge = species.leaf_size * scale, radius = LEAF_REACH * edge;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (branches[i].leaves == 0 || radius <= 0.0) continue;
     const double volume = PI * radius * radius * (branches[i].length + 4.0 / 3.0 * radius);
     const double area = forest::LEAF_COVERAGE * edge * edge * branches[i].leaves;
-    leaf_radii_[i] = radius;
+    branches_[i].leaf_radius = radius;
+    branches_[i].extinction = LEAF_PROJECTION * area / volume;
+    branches_[i].leaf_key = static_cast<std::uint32_t>(branches[i].key >> 32);
     largest_leaves_ = std::max(largest_leaves_, radius);
-    leaves_[i] = {LEAF_PROJECTION * area / volume,
-                  static_cast<std::uint32_t>(branches[i].key >> 32)};
   }
 }
 
 void PosedTree::placeRods() {
-  turns_.resize(rods_.size());
-  for (std::size_t i = 0; i < rods_.size(); ++i) {
+  for (std::size_t i = 0; i < branches_.size(); ++i) {
     const Pose pose = poses_.at(static_cast<int>(i));
-    Rod& rod = rods_[i];
-    rod.base = tree_.foot + pose.position;
-    rod.axis = axisZ(pose.orientation);
-    turns_[i] = pose.orientation;
+    PosedBranch& branch = branches_[i];
+    branch.rod.base = tree_.foot + pose.position;
+    branch.rod.axis = axisZ(pose.orientation);
+    branch.turn = pose.orientation;
   }
 }
 
@@ -95,7 +95,8 @@ bool PosedTree::isNear(Nanoseconds stamp, const Vec3& centre, double radius) con
 }
 
 void PosedTree::fit(bool moved, const Vec3& origin) {
-  if (moved || origin_ != origin) rod_tree_.fit(rods_, leaf_radii_, origin);
+  if (moved || origin_ != origin)
+    rod_tree_.fit([this](std::size_t i) { return roomyRod(i); }, origin);
   origin_ = origin;
 }
 
@@ -125,42 +126,43 @@ std::size_t PosedTree::partOf(int branch) const {
   return static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), branch) - own.begin());
 }
 
-bool PosedTree::meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const {
-  if (isGone(branch)) return false;
+bool PosedTree::meetBranch(std::size_t index, const Ray& ray, Hit& nearest) const {
+  const PosedBranch& branch = branches_[index];
+  if (branch.gone) return false;
   Meeting meeting;
-  const bool wood = scan::meet(ray, rods_[branch], nearest.distance, meeting);
+  const bool wood = scan::meet(ray, branch.rod, nearest.distance, meeting);
   if (wood) {
-    nearest = {meeting.distance, isTrunk(branch) ? Label::TRUNK : Label::BRANCH, id_,
-               branchOf(branch), meeting.cosine};
+    nearest = {meeting.distance, branch.trunk ? Label::TRUNK : Label::BRANCH, id_, branchOf(index),
+               meeting.cosine};
   }
-  const bool leaves = leaf_radii_[branch] > 0.0 && meetLeaves(branch, ray, nearest);
+  const bool leaves = branch.leaf_radius > 0.0 && meetLeaves(index, ray, nearest);
   return wood || leaves;
 }
 
 // The cells are fixed to the branch, so that leaves move with it.
-bool PosedTree::meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const {
-  const Leaves& leaves = leaves_[branch];
-  const Stretch part = within(ray, rods_[branch], leaf_radii_[branch]);
+bool PosedTree::meetLeaves(std::size_t index, const Ray& ray, Hit& nearest) const {
+  const PosedBranch& branch = branches_[index];
+  const Stretch part = within(ray, branch.rod, branch.leaf_radius);
   if (!(part.from < part.to && part.from < nearest.distance)) return false;
-  const Vec3 place =
-      rotate(conjugate(turns_[branch]), Vec3(ray.at(part.from) - rods_[branch].base));
+  const Vec3 place = rotate(conjugate(branch.turn), Vec3(ray.at(part.from) - branch.rod.base));
   const double to = std::min(part.to, nearest.distance);
-  const double share = shareOf(cellAt(place, LEAF_CELL), leaves.key);
-  if (!mayBeBelow(leaves.extinction * (to - part.from), share)) return false;
-  const double way = depthAt(share) / leaves.extinction;
+  const double share = shareOf(cellAt(place, LEAF_CELL), branch.leaf_key);
+  if (!mayBeBelow(branch.extinction * (to - part.from), share)) return false;
+  const double way = depthAt(share) / branch.extinction;
   if (!(part.from + way < to)) return false;
-  nearest = {part.from + way, Label::LEAF, id_, branchOf(branch), LEAF_COSINE};
+  nearest = {part.from + way, Label::LEAF, id_, branchOf(index), LEAF_COSINE};
   return true;
 }
 
-void PosedTree::addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const {
-  if (path.isBlocked() || isGone(branch)) return;
+void PosedTree::addBranchDepth(std::size_t index, const Ray& ray, LightPath& path) const {
+  const PosedBranch& branch = branches_[index];
+  if (path.isBlocked() || branch.gone) return;
   Meeting meeting;
-  if (scan::meet(ray, rods_[branch], path.end().distance, meeting)) return path.block();
-  if (!(leaf_radii_[branch] > 0.0)) return;
-  const Stretch part = within(ray, rods_[branch], leaf_radii_[branch]);
+  if (scan::meet(ray, branch.rod, path.end().distance, meeting)) return path.block();
+  if (!(branch.leaf_radius > 0.0)) return;
+  const Stretch part = within(ray, branch.rod, branch.leaf_radius);
   const double way = std::min(part.to, path.end().distance) - part.from;
-  if (way > 0.0) path.add(leaves_[branch].extinction * way);
+  if (way > 0.0) path.add(branch.extinction * way);
 }
 
 }  // namespace vegetation_sim::scan

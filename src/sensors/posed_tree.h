@@ -15,15 +15,22 @@
 
 namespace vegetation_sim::scan {
 
+/// A branch with the leaves around its axis, together in memory since a ray needs all of it.
+struct alignas(64) PosedBranch {
+  Rod rod;    ///< world
+  Quat turn;  ///< of the rod
+  /// Room that the leaves take around the axis [m]; 0 without leaves.
+  double leaf_radius{0.0};
+  double extinction{0.0};     ///< of the leaves [1/m]
+  std::uint32_t leaf_key{0};  ///< of the random numbers of the leaves
+  bool trunk{false}, gone{false};
+};
+static_assert(sizeof(PosedBranch) == 128, "two cache lines");
+
 /// One tree for rays: a rod per branch, and a cloud of leaves around each leafy branch that moves
 /// with it.
 class PosedTree {
  public:
-  /// Leaves around the axis of a branch.
-  struct Leaves {
-    double extinction{0.0};  ///< [1/m]
-    std::uint32_t key{0};
-  };
   /// Grows the tree.
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id);
   /// A piece that has come off a tree. @param id see Trees.
@@ -52,20 +59,15 @@ class PosedTree {
   /// Unlit colours of bark and leaves.
   const forest::TreePaint& paint() const { return paint_; }
   /// Number of branches, which are those of the piece alone if it is one.
-  std::size_t parts() const { return rods_.size(); }
+  std::size_t parts() const { return branches_.size(); }
   Box bounds() const { return rod_tree_.bounds(); }
   /// Returns the branches with the room for their leaves.
   const RodTree& rodTree() const { return rod_tree_; }
-  const std::vector<Rod>& rods() const { return rods_; }
-
-  const std::vector<Quat>& turns() const { return turns_; }
-  const std::vector<Leaves>& leaves() const { return leaves_; }
+  /// Returns the branches. [parts()]
+  const std::vector<PosedBranch>& branches() const { return branches_; }
   /// Returns the index in the tree of a branch, counted from 0 to parts(), and the other way round.
   int branchOf(std::size_t part) const;
   std::size_t partOf(int branch) const;
-  bool isTrunk(std::size_t branch) const { return tree_.skeleton.branches[branch].depth == 0; }
-  /// Returns the room that the leaves of each branch take around its axis [m]; 0 without leaves.
-  const std::vector<double>& leafRadii() const { return leaf_radii_; }
 
   /// Replaces the hit by a nearer one on a branch or its leaves; returns whether there is one.
   bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
@@ -79,12 +81,13 @@ class PosedTree {
             std::shared_ptr<const forest::FallingPiece> piece);
   void posePiece(Nanoseconds stamp);
   void fit(bool moved, const Vec3& origin);
+  RoomyRod roomyRod(std::size_t branch) const {
+    return {branches_[branch].rod, branches_[branch].leaf_radius};
+  }
   void addLeaves(const forest::Species& species);
   void pose(const forest::ForestReplica& forest, Nanoseconds stamp, const wind::Instant& wind);
   void placeRods();
   bool meetLeaves(std::size_t branch, const Ray& ray, Hit& nearest) const;
-
-  bool isGone(std::size_t branch) const { return tree_.skeleton.branches[branch].broken; }
 
   std::uint32_t id_;
   forest::BrokenBranches broken_;
@@ -93,13 +96,10 @@ class PosedTree {
   forest::TreePaint paint_;
   forest::BatchPoser poser_;
   forest::BatchPoses poses_;
-  std::vector<Rod> rods_;       ///< world
-  std::vector<Quat> turns_;     ///< of rods_
-  std::vector<Leaves> leaves_;  ///< of each branch
-  std::vector<double> leaf_radii_;
+  std::vector<PosedBranch> branches_;
   RodTree rod_tree_;
   Vec3 origin_;                 ///< of rod_tree_
-  double largest_leaves_{0.0};  ///< of leaf_radii_
+  double largest_leaves_{0.0};  ///< largest leaf_radius [m]
   bool moved_{true};
 };
 

@@ -87,7 +87,7 @@ bool isWood(const Hit& hit) {
 
 const Rod& rodOf(const Sensed& sensed, const Hit& hit) {
   for (const auto& tree : sensed.trees.all())
-    if (tree->id() == hit.plant) return tree->rods()[tree->partOf(hit.branch)];
+    if (tree->id() == hit.plant) return tree->branches()[tree->partOf(hit.branch)].rod;
   throw std::out_of_range("a tree that is not sensed");
 }
 

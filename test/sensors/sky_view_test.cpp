@@ -97,8 +97,8 @@ TEST(SkyView, OfAWallOfLeavesIsBeerLambert) {
   scene.trees.update(replica, Vec3::Zero(), SKY_REACH, START);
   const PosedTree& tree = *scene.trees.all().at(0);
   ASSERT_EQ(tree.parts(), 1u);
-  const Rod& trunk = tree.rods()[0];
-  const double edge = tree.leafRadii()[0] / 0.6;
+  const Rod& trunk = tree.branches()[0].rod;
+  const double edge = tree.branches()[0].leaf_radius / 0.6;
   const double area = 0.4 * edge * edge * replica.grow(0).skeleton.branches[0].leaves;
   const double volume = PI * 0.36 * edge * edge * (trunk.length + 0.8 * edge);
   const double extinction = area / (2.0 * volume);
@@ -106,8 +106,8 @@ TEST(SkyView, OfAWallOfLeavesIsBeerLambert) {
   const Vec3 across = cross(trunk.axis, Vec3(1, 0, 0)).normalized();
   const Vec3 along = cross(across, trunk.axis);
   for (const double offset : {0.5, 0.7, 0.95}) {
-    const double beside = offset * tree.leafRadii()[0];
-    const double half = std::sqrt(std::pow(tree.leafRadii()[0], 2) - beside * beside);
+    const double beside = offset * tree.branches()[0].leaf_radius;
+    const double half = std::sqrt(std::pow(tree.branches()[0].leaf_radius, 2) - beside * beside);
     const Vec3 place = middle + beside * across;
     EXPECT_NEAR(transmittance(scene, Ray(place - 5.0 * along, along), SKY_REACH),
                 std::exp(-extinction * 2.0 * half), 1e-9);
@@ -127,10 +127,10 @@ double transmittanceOfAll(const Trees& trees, const Ray& ray) {
   for (const auto& tree : trees.all())
     for (std::size_t i = 0; i < tree->parts(); ++i) {
       Meeting meeting;
-      if (meet(ray, tree->rods()[i], SKY_REACH, meeting)) return 0.0;
-      if (!(tree->leafRadii()[i] > 0.0)) continue;
-      const Stretch part = within(ray, tree->rods()[i], tree->leafRadii()[i]);
-      depth += tree->leaves()[i].extinction * std::max(0.0, part.to - part.from);
+      if (meet(ray, tree->branches()[i].rod, SKY_REACH, meeting)) return 0.0;
+      if (!(tree->branches()[i].leaf_radius > 0.0)) continue;
+      const Stretch part = within(ray, tree->branches()[i].rod, tree->branches()[i].leaf_radius);
+      depth += tree->branches()[i].extinction * std::max(0.0, part.to - part.from);
     }
   return std::exp(-depth);
 }

@@ -58,7 +58,7 @@ TEST(Trees, BranchesStandWhereTheReplicaHasThem) {
     const forest::Tree grown = forest.grow(tree->id());
     const auto poses = forest.pose(grown, tree->id(), START + fromSeconds(3.0));
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Rod& rod = tree->rods()[i];
+      const Rod& rod = tree->branches()[i].rod;
       const Vec3 tip = grown.foot + tipOf(grown.skeleton.branches[i], poses[i]);
       worst = std::max(worst, length(rod.base + rod.length * rod.axis - tip));
     }
@@ -163,8 +163,8 @@ TEST(Trees, PiecesAreMetWhereTheyLie) {
   EXPECT_EQ(piece->parts(), lost);  // no more than it has lost, of which the tree has the rest
   const auto lowest = [&] {
     double out = 1e9;
-    for (const Rod& rod : piece->rods())
-      out = std::min(out, Vec3(rod.base + rod.length * rod.axis).z());
+    for (const PosedBranch& branch : piece->branches())
+      out = std::min(out, Vec3(branch.rod.base + branch.rod.length * branch.rod.axis).z());
     return out;
   };
   const double above = lowest();
@@ -172,7 +172,7 @@ TEST(Trees, PiecesAreMetWhereTheyLie) {
   ASSERT_EQ(trees.all().back(), piece);
   EXPECT_LT(lowest(), above - 0.5);
   EXPECT_NEAR(lowest(), 0.0, 1e-3);
-  const Rod& rod = piece->rods().front();
+  const Rod& rod = piece->branches().front().rod;
   const Vec3 middle = rod.base + 0.5 * rod.length * rod.axis;
   Hit hit;
   trees.meet(Ray(Vec3(middle + Vec3(0.0, 0.0, 0.2)), Vec3(0.0, 0.0, -1.0)), hit);

@@ -10,10 +10,10 @@ namespace {
 std::vector<Box> boxesOf(const PosedTree& tree) {
   std::vector<Box> out;
   for (std::size_t i = 0; i < tree.parts(); ++i) {
-    const Rod& rod = tree.rods()[i];
+    const Rod& rod = tree.branches()[i].rod;
     out.push_back(boxOf(rod));
-    out.back().add(rod.base, tree.leafRadii()[i]);
-    out.back().add(rod.base + rod.length * rod.axis, tree.leafRadii()[i]);
+    out.back().add(rod.base, tree.branches()[i].leaf_radius);
+    out.back().add(rod.base + rod.length * rod.axis, tree.branches()[i].leaf_radius);
   }
   return out;
 }

@@ -9,20 +9,20 @@
 namespace vegetation_sim::scan {
 
 void meetBranchPlainly(const PosedTree& tree, std::size_t i, const Ray& ray, Hit& nearest) {
-  const Rod& rod = tree.rods()[i];
-  const int branch = tree.branchOf(i);
+  const PosedBranch& branch = tree.branches()[i];
+  const int index = tree.branchOf(i);
   Meeting meeting;
-  if (meet(ray, rod, nearest.distance, meeting))
-    nearest = {meeting.distance, tree.isTrunk(i) ? Label::TRUNK : Label::BRANCH, tree.id(), branch,
+  if (meet(ray, branch.rod, nearest.distance, meeting))
+    nearest = {meeting.distance, branch.trunk ? Label::TRUNK : Label::BRANCH, tree.id(), index,
                meeting.cosine};
-  if (!(tree.leafRadii()[i] > 0.0)) return;
-  const Stretch part = within(ray, rod, tree.leafRadii()[i]);
+  if (!(branch.leaf_radius > 0.0)) return;
+  const Stretch part = within(ray, branch.rod, branch.leaf_radius);
   if (!(part.from < part.to && part.from < nearest.distance)) return;
-  const Vec3 place = rotate(conjugate(tree.turns()[i]), Vec3(ray.at(part.from) - rod.base));
-  const PosedTree::Leaves& leaves = tree.leaves()[i];
-  const double way = depthAt(shareOf(cellAt(place, LEAF_CELL), leaves.key)) / leaves.extinction;
+  const Vec3 place = rotate(conjugate(branch.turn), Vec3(ray.at(part.from) - branch.rod.base));
+  const double way =
+      depthAt(shareOf(cellAt(place, LEAF_CELL), branch.leaf_key)) / branch.extinction;
   if (part.from + way < std::min(part.to, nearest.distance))
-    nearest = {part.from + way, Label::LEAF, tree.id(), branch, LEAF_COSINE};
+    nearest = {part.from + way, Label::LEAF, tree.id(), index, LEAF_COSINE};
 }
 
 void meetEachBranch(const Trees& trees, const Ray& ray, Hit& nearest) {

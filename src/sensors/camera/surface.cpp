@@ -106,9 +106,9 @@ Surface Surfaces::at(const Ray& ray, const Hit& hit) const {
 
 Surface Surfaces::woodAt(const Vec3& place, const Hit& hit) const {
   const PosedTree& tree = *trees_.at(hit.plant);
-  const std::size_t branch = tree.partOf(hit.branch);
-  const Rod& rod = tree.rods()[branch];
-  const Vec3 own = rotate(conjugate(tree.turns()[branch]), Vec3(place - rod.base));
+  const PosedBranch& branch = tree.branches()[tree.partOf(hit.branch)];
+  const Rod& rod = branch.rod;
+  const Vec3 own = rotate(conjugate(branch.turn), Vec3(place - rod.base));
   const double bark = fractalNoise({28.0 * own.x(), 28.0 * own.y(), 7.0 * own.z()}, 3, keyOf(hit));
   Surface out;
   Vec3 outwards;
@@ -125,8 +125,8 @@ Surface Surfaces::woodAt(const Vec3& place, const Hit& hit) const {
 // A leaf has the colour of its cell and a normal between that of the crown and its own.
 Surface Surfaces::leafAt(const Vec3& place, const Hit& hit) const {
   const PosedTree& tree = *trees_.at(hit.plant);
-  const std::size_t branch = tree.partOf(hit.branch);
-  const Vec3 own = rotate(conjugate(tree.turns()[branch]), Vec3(place - tree.rods()[branch].base));
+  const PosedBranch& branch = tree.branches()[tree.partOf(hit.branch)];
+  const Vec3 own = rotate(conjugate(branch.turn), Vec3(place - branch.rod.base));
   const Cell cell = cellAt(own, LEAF_SPOT);
   const std::uint32_t key = keyOf(hit);
   Surface out;

@@ -18,7 +18,6 @@ void RodTreeSet::set(const std::vector<const RodTree*>& trees, const Vec3& origi
   }
   nodes_.resize(static_cast<std::size_t>(end.node));
   groups_.resize(static_cast<std::size_t>(end.group));
-  members_.resize(groups_.size());
   std::copy(boxes_.nodes().begin(), boxes_.nodes().end(), nodes_.begin());
   for (std::size_t i = 0; i < boxes_.nodes().size(); ++i)
     for (std::int32_t& child : nodes_[i].child) {
@@ -63,9 +62,7 @@ void RodTreeSet::copyTree(const RodTree& tree, std::uint32_t index, const Place&
   for (std::size_t g = 0; g < tree.groups().size(); ++g) {
     const std::size_t at = static_cast<std::size_t>(place.group) + g;
     groups_[at] = tree.groups()[g];
-    members_[at].tree = index;
-    for (int i = 0; i < groups_[at].count; ++i)
-      members_[at].rods[i] = static_cast<std::uint32_t>(tree.boxes().item(static_cast<int>(g), i));
+    groups_[at].tree = index;
   }
 }
 

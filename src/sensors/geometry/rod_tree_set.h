@@ -24,10 +24,9 @@ class RodTreeSet {
     WideWalk walk(WalkedTree(nodes_, groups_, boxes_.origin(), boxes_.extent()), ray, narrow,
                   nearest.distance);
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
-      const Members& members = members_[static_cast<std::size_t>(next.group)];
+      const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
       for (int i = 0; next.lanes >> i != 0; ++i)
-        if ((next.lanes >> i & 1U) != 0)
-          meet(std::size_t{members.tree}, std::size_t{members.rods[i]});
+        if ((next.lanes >> i & 1U) != 0) meet(std::size_t{group.tree}, std::size_t{group.rods[i]});
       walk.limit = limitOf(nearest.distance);
     }
   }
@@ -37,17 +36,12 @@ class RodTreeSet {
   struct Place {
     std::int32_t node{0}, group{0};
   };
-  struct Members {
-    std::uint32_t tree{0};
-    std::uint32_t rods[WideNode::WIDTH]{};
-  };
   void buildTop(const std::vector<const RodTree*>& trees, const Vec3& origin);
   void copyTree(const RodTree& tree, std::uint32_t index, const Place& place);
 
   WideTree boxes_{1};             ///< of the trees
   std::vector<WideNode> nodes_;   ///< of boxes_, then of each tree
   std::vector<RodGroup> groups_;  ///< of each tree
-  std::vector<Members> members_;  ///< of each group
 };
 
 }  // namespace vegetation_sim::scan

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 // Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -123,6 +124,13 @@ HWY_INLINE Lanes dot(const Components& a, const float* b) {
   return a.x * all(b[0]) + a.y * all(b[1]) + a.z * all(b[2]);
 }
 
+// Loads numbers that roundUp() has made.
+HWY_INLINE Lanes loadHalves(const std::uint16_t* from) {
+  const hn::RebindToUnsigned<Tag> words;
+  const hn::Rebind<std::uint16_t, Tag> halves;
+  return hn::BitCast(Tag(), hn::ShiftLeft<16>(hn::PromoteTo(words, hn::Load(halves, from))));
+}
+
 // Tests the axes, seen along the ray, against the radius: the nearest point of each to the ray is
 // nearer than that, and the rod is neither behind the origin nor beyond the limit.
 HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group) {
@@ -143,7 +151,7 @@ HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group) {
     const Lanes square = hn::Max(way_u * way_u + way_v * way_v, all(1e-30f));
     const Lanes part = hn::Min(hn::Max((zero - (u * way_u + v * way_v)) / square, zero), one);
     const Lanes at_u = u + part * way_u, at_v = v + part * way_v;
-    const Lanes radius = hn::Load(Tag(), group.radius + first) + all(walk.margin);
+    const Lanes radius = loadHalves(group.radius + first) + all(walk.margin);
     const Lanes along = dot(base, ray.direction), more = dot(way, ray.direction);
     const auto close = at_u * at_u + at_v * at_v <= radius * radius;
     const auto begins = along + hn::Min(more, zero) - radius <= all(walk.limit);
@@ -202,6 +210,12 @@ FloatRay::FloatRay(const Ray& ray) : valid(ray.origin.allFinite() && ray.directi
     far_plane[i] = back ? i : 3 + i;
   }
   setAcross(ray.direction / std::sqrt(square), across);
+}
+
+std::uint16_t roundUp(float positive) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &positive, sizeof bits);
+  return static_cast<std::uint16_t>((bits + 0xFFFFU) >> 16);
 }
 
 float limitOf(double distance) {

@@ -30,9 +30,14 @@ float limitOf(double distance);
 /// Eight rods without their taper, relative to the origin of their tree [m].
 struct alignas(64) RodGroup {
   float base[3][WideNode::WIDTH], way[3][WideNode::WIDTH];  ///< way: from base to tip
-  float radius[WideNode::WIDTH];
+  std::uint16_t radius[WideNode::WIDTH];                    ///< as roundUp() makes them
   std::int32_t count{0};
+  std::uint32_t tree{0};                  ///< its index in a set of trees
+  std::uint32_t rods[WideNode::WIDTH]{};  ///< indices in the tree
 };
+
+/// Returns the upper half of the bits of the next number that needs no more.
+std::uint16_t roundUp(float positive);
 
 /// Nodes of a tree whose first one is its root, and the groups that they lead to.
 struct WalkedTree {

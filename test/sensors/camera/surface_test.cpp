@@ -105,8 +105,8 @@ TEST_F(SurfacesTest, TexturesMoveWithTheirBranch) {
                        START + (colour == &after ? fromSeconds(3.0) : 0));
     const PosedTree& tree = *scene.trees.all().front();
     const std::size_t branch = tree.parts() / 2;
-    const Rod& rod = tree.rods()[branch];
-    const Vec3 side = axisX(tree.turns()[branch]);
+    const Rod& rod = tree.branches()[branch].rod;
+    const Vec3 side = axisX(tree.branches()[branch].turn);
     const Vec3 place = rod.base + 0.5 * rod.length * rod.axis + 0.01 * side;
     const Hit hit{1.0, Label::BRANCH, tree.id(), static_cast<int>(branch), 1.0};
     *colour = Surfaces(scene).at(Ray(place + side, -side), hit).albedo;

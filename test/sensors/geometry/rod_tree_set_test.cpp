@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
+
 #include "scenes/sensors/rods_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 
@@ -65,6 +68,17 @@ TEST(RodTreeSet, GivesTheHitsOfATestOfEveryRodOnEveryInstructionSet) {
   const std::size_t casts = 2 * rays.size() * instructionSets().size();
   EXPECT_GT(hits, casts / 5);
   EXPECT_LT(tested, casts * parts.all.size() / 50);
+}
+
+// Rounded down, a radius would keep rays from rods that they hit.
+TEST(RodTreeSet, RoundsRadiiUp) {
+  for (const float radius : {1e-6f, 0.01f, 0.5f, 1.f, 3.14159f}) {
+    const std::uint32_t bits = std::uint32_t{roundUp(radius)} << 16;
+    float back = 0.f;
+    std::memcpy(&back, &bits, sizeof back);
+    EXPECT_GE(back, radius);
+    EXPECT_LE(back, radius * (1.f + 0x1p-7f));
+  }
 }
 
 TEST(RodTreeSet, OfNoTreesOrEmptyTreesLeadsNowhere) {
