@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reference/sensors/capsule.h"
 #include "sensors/media/beer_lambert.h"
 
 namespace vegetation_sim::scan {
@@ -16,7 +17,7 @@ void meetBranchPlainly(const PosedTree& tree, std::size_t i, const Ray& ray, Hit
     nearest = {meeting.distance, branch.trunk ? Label::TRUNK : Label::BRANCH, tree.id(), index,
                meeting.cosine};
   if (!(branch.leaf_radius > 0.0)) return;
-  const Stretch part = within(ray, branch.rod, branch.leaf_radius);
+  const Stretch part = withinPlainly(ray, branch.rod, branch.leaf_radius);
   if (!(part.from < part.to && part.from < nearest.distance)) return;
   const Vec3 place = rotate(conjugate(branch.turn), Vec3(ray.at(part.from) - branch.rod.base));
   const double way =

@@ -32,8 +32,17 @@ void meetBall(const Ray& ray, const Vec3& centre, double radius, Meeting& out) {
     improve(part.from, (ray.at(part.from) - centre) / radius, ray, out);
 }
 
+// Distance from the end of a cylinder from which on the ball there is inside it by so much that
+// rounding cannot make its interval the longer one [m].
+constexpr double BEYOND_BALL = 1e-3;
+
+// Which balls at the ends of a cylinder may extend the interval of a ray.
+struct Balls {
+  bool base{true}, tip{true};
+};
+
 // Returns the interval of a ray's line in a cylinder around the axis, cut off at both ends.
-Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius) {
+Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius, Balls& balls) {
   const Vec3 offset = ray.origin - rod.base;
   const double da = dot(ray.direction, rod.axis), oa = dot(offset, rod.axis);
   const double a = 1.0 - da * da, b = dot(offset, ray.direction) - oa * da;
@@ -41,6 +50,9 @@ Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius) {
   if (a < ALONG || !(square > 0.0)) return {};
   const double root = std::sqrt(square);
   Stretch out{(-b - root) / a, (-b + root) / a};
+  const double enters = oa + da * out.from, leaves = oa + da * out.to;
+  balls.base = std::min(enters, leaves) < BEYOND_BALL;
+  balls.tip = std::max(enters, leaves) > rod.length - BEYOND_BALL;
   if (da == 0.0) return oa >= 0.0 && oa <= rod.length ? out : Stretch{};
   const double low = -oa / da, high = (rod.length - oa) / da;
   return {std::max(out.from, std::min(low, high)), std::min(out.to, std::max(low, high))};
@@ -96,14 +108,17 @@ bool meet(const Ray& ray, const Rod& rod, double reach, Meeting& out) {
 }
 
 Stretch within(const Ray& ray, const Rod& rod, double radius) {
-  Stretch all;
-  for (const Stretch& part : {throughCylinder(ray, rod, radius), through(ray, rod.base, radius),
-                              through(ray, rod.base + rod.length * rod.axis, radius)}) {
-    if (!(part.from < part.to)) continue;
+  Balls balls;
+  Stretch all = throughCylinder(ray, rod, radius, balls);
+  if (!(all.from < all.to)) all = {};
+  const auto extend = [&](const Stretch& part) {
+    if (!(part.from < part.to)) return;
     const bool first = !(all.from < all.to);
     all.from = first ? part.from : std::min(all.from, part.from);
     all.to = first ? part.to : std::max(all.to, part.to);
-  }
+  };
+  if (balls.base) extend(through(ray, rod.base, radius));
+  if (balls.tip) extend(through(ray, rod.base + rod.length * rod.axis, radius));
   all.from = std::max(all.from, 0.0);
   return all;
 }

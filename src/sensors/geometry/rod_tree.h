@@ -61,10 +61,8 @@ class RodTree {
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
     WideWalk walk(WalkedTree(tree_, groups_.data()), ray, narrow, nearest.distance);
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
-      for (int i = 0; next.lanes >> i != 0; ++i)
-        if ((next.lanes >> i & 1U) != 0)
-          meet(std::size_t{groups_[static_cast<std::size_t>(next.group)].rods[i]});
-      walk.limit = limitOf(nearest.distance);
+      const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
+      meetNearestFirst(walk, next, nearest, [&](int i) { meet(std::size_t{group.rods[i]}); });
     }
   }
 

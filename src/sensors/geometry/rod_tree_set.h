@@ -25,9 +25,8 @@ class RodTreeSet {
                   nearest.distance);
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
       const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
-      for (int i = 0; next.lanes >> i != 0; ++i)
-        if ((next.lanes >> i & 1U) != 0) meet(std::size_t{group.tree}, std::size_t{group.rods[i]});
-      walk.limit = limitOf(nearest.distance);
+      meetNearestFirst(walk, next, nearest,
+                       [&](int i) { meet(std::size_t{group.tree}, std::size_t{group.rods[i]}); });
     }
   }
 

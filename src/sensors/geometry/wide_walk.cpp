@@ -133,7 +133,7 @@ HWY_INLINE Lanes loadHalves(const std::uint16_t* from) {
 
 // Tests the axes, seen along the ray, against the radius: the nearest point of each to the ray is
 // nearer than that, and the rod is neither behind the origin nor beyond the limit.
-HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group) {
+HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group, float* entries) {
   const FloatRay& ray = *walk.ray;
   const auto rows = [&](const float(*from)[WideNode::WIDTH], int first) HWY_ATTR {
     return Components{hn::Load(Tag(), from[0] + first), hn::Load(Tag(), from[1] + first),
@@ -154,7 +154,9 @@ HWY_INLINE unsigned testRods(const WideWalk& walk, const RodGroup& group) {
     const Lanes radius = loadHalves(group.radius + first) + all(walk.margin);
     const Lanes along = dot(base, ray.direction), more = dot(way, ray.direction);
     const auto close = at_u * at_u + at_v * at_v <= radius * radius;
-    const auto begins = along + hn::Min(more, zero) - radius <= all(walk.limit);
+    const Lanes entry = along + hn::Min(more, zero) - radius;
+    hn::Store(entry, Tag(), entries + first);
+    const auto begins = entry <= all(walk.limit);
     const auto ends = along + hn::Max(more, zero) + radius >= zero;
     bits |= bitsOf(hn::And(close, hn::And(begins, ends)), first);
   }
@@ -166,10 +168,13 @@ int nextBox(WideWalk& walk) {
 }
 
 RodCandidates nextFew(WideWalk& walk) {
-  for (int group = advance(walk); group >= 0; group = advance(walk))
-    if (const unsigned lanes = testRods(walk, walk.groups[group]); lanes != 0)
-      return {group, lanes};
-  return {};
+  RodCandidates out;
+  for (int group = advance(walk); group >= 0; group = advance(walk)) {
+    out.group = group;
+    out.lanes = testRods(walk, walk.groups[group], out.entries);
+    if (out.lanes != 0) break;
+  }
+  return out;
 }
 
 }  // namespace vegetation_sim::scan::HWY_NAMESPACE

@@ -76,9 +76,25 @@ int nextGroup(WideWalk& walk);
 /// Rods of a group that a ray may hit.
 struct RodCandidates {
   int group{-1};
-  unsigned lanes{0};  ///< bit i: item i of the group; 0 at the end
+  unsigned lanes{0};                           ///< bit i: item i of the group; 0 at the end
+  alignas(64) float entries[WideNode::WIDTH];  ///< bounds of the distances of their entries
 };
 /// Returns the candidates of the next group that has any.
 RodCandidates nextRods(WideWalk& walk);
+
+/// Calls meet(item of the group), which may reduce `nearest`, for the candidates; near ones first,
+/// and not for those beyond the nearest hit.
+template <class Meet>
+void meetNearestFirst(WideWalk& walk, const RodCandidates& found, const Hit& nearest, Meet&& meet) {
+  for (unsigned lanes = found.lanes; lanes != 0;) {
+    int next = -1;
+    for (int i = 0; lanes >> i != 0; ++i)
+      if ((lanes >> i & 1U) != 0 && (next < 0 || found.entries[i] < found.entries[next])) next = i;
+    if (!(found.entries[next] <= walk.limit)) return;
+    meet(next);
+    walk.limit = limitOf(nearest.distance);
+    lanes &= ~(1U << next);
+  }
+}
 
 }  // namespace vegetation_sim::scan

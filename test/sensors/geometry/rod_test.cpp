@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/sensors/capsule.h"
 #include "scenes/sensors/lidar_scene.h"
 
 namespace vegetation_sim::scan {
@@ -91,6 +92,29 @@ TEST(Rod, StretchWithinARadiusHasItsEndsThere) {
     EXPECT_LT(outside(ray.at(0.5 * (part.from + part.to)), rod), 0.0);
   }
   EXPECT_GT(crossed, 100);
+}
+
+// Balls at the ends are left out only where they cannot change a bit.
+TEST(Rod, StretchHasTheBitsOfThePlainOne) {
+  const Random random(11);
+  int crossed = 0, different = 0;
+  for (std::uint64_t i = 0; i < 200'000; ++i) {
+    const Rod rod = randomRod(random, i % 500);
+    const double radius = random.uniform(4 * i, 0.001, 0.5);
+    // Many rays aim at the planes where the balls begin.
+    const double along =
+        i % 3 == 0 ? random.uniform(4 * i + 1, 0.0, rod.length)
+                   : (i % 3 == 1 ? 0.0 : rod.length) + random.uniform(4 * i + 1, -2e-3, 2e-3);
+    const Vec3 aim =
+        rod.base + along * rod.axis + radius * randomDirection(random, 3 * i + 9000, -1.5, 1.5);
+    const Vec3 from = 40.0 * randomDirection(random, 3 * i + 9001, -1.5, 1.5);
+    const Ray ray(from, i % 7 == 0 ? rod.axis : Vec3((aim - from).normalized()));
+    const Stretch fast = within(ray, rod, radius), plain = withinPlainly(ray, rod, radius);
+    different += fast.from != plain.from || fast.to != plain.to;
+    crossed += plain.from < plain.to;
+  }
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(crossed, 50'000);
 }
 
 }  // namespace
