@@ -42,7 +42,7 @@ double splineScale() {
 
 }  // namespace
 
-// By Box and Muller.
+// Uses the method of Box and Muller.
 double GaussMarkovProcess::normal(std::uint64_t cell, std::uint64_t node) const {
   const std::uint64_t index = 2 * (cell * 2 * CELL + node);
   const double radius = std::sqrt(-2.0 * logarithm(1.0 - random_.uniform(index)));

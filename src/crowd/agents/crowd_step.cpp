@@ -143,7 +143,7 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
     out.speed *= paceAt(w, out.direction);
     return out;
   }
-  // Who has just chosen a goal makes no detour, and its aim is that of the last goal.
+  // A walker that has just chosen a goal makes no detour: aims_ still has the aim of the last goal.
   const Point to = (w.detours ? aims_[index] : w.goal) - w.position;
   const double way = length(to);
   if (way > 0.0) out.direction = (1.0 / way) * to;

@@ -19,7 +19,7 @@ struct WayProgress {
 };
 
 /// Lengths of the shortest ways to one free cell, found from that cell on by reverse resumable A*
-/// (Silver 2005): the cells between goal and origin come first, others when somebody needs them. A
+/// (Silver 2005): the cells between goal and origin come first, others when a query needs them. A
 /// known length is that of Dijkstra's algorithm over all cells, in whatever order cells are asked.
 /// All goals in the cell share the search.
 class WaySearch {

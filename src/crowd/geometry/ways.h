@@ -31,8 +31,8 @@ struct WayQuery {
 };
 
 /// Ways around static obstacles. All searches together close a bounded number of cells in a tick,
-/// the oldest search first, and take a bounded memory: whoever waits for its search has the goal as
-/// aim. Goals in one cell share a search. What queries get depends on obstacles, progress and
+/// the oldest search first, and take a bounded memory: the aim of a walker whose search waits is
+/// the goal. Goals in one cell share a search. The results depend on obstacles, progress and
 /// queries, not on threads or speed.
 class Ways {
  public:

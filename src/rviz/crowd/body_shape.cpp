@@ -42,7 +42,7 @@ constexpr Form TRUNK[] = {{-0.055, 0.030, 0.034, 0.000, Paint::TROUSERS, true},
                           {0.312, 0.034, 0.033, -0.003, Paint::SKIN},
                           {0.335, 0.030, 0.033, 0.000, Paint::SKIN, true},
                           {0.365, 0.031, 0.034, 0.004, Paint::SKIN}};
-// From the chin up, along the spine from the neck.
+// The head is measured from the neck along the spine, and is listed from the chin up.
 constexpr Form HEAD[] = {{-0.006, 0.016, 0.020, 0.026, Paint::FACE, true},
                          {0.002, 0.030, 0.036, 0.015, Paint::FACE},
                          {0.022, 0.039, 0.046, 0.008, Paint::FACE, true},
@@ -56,7 +56,7 @@ constexpr Form HEAD[] = {{-0.006, 0.016, 0.020, 0.026, Paint::FACE, true},
                          {0.131, 0.018, 0.023, -0.002, Paint::HAIR, true},
                          {0.134, 0.003, 0.004, -0.002, Paint::HAIR, true}};
 constexpr std::size_t NOSE_RING = 3, EYE_RING = 5;
-// From the shoulder along the arm; a hand is flat, its thumb in front.
+// The arm is measured from the shoulder. The hand is flat with the thumb in front.
 constexpr Form ARM[] = {{-0.024, 0.010, 0.012, 0.0, Paint::SHIRT, true},
                         {-0.012, 0.026, 0.030, 0.0, Paint::SHIRT, true},
                         {0.010, 0.032, 0.035, 0.0, Paint::SHIRT},
@@ -72,7 +72,7 @@ constexpr Form ARM[] = {{-0.024, 0.010, 0.012, 0.0, Paint::SHIRT, true},
                         {0.370, 0.010, 0.022, 0.004, Paint::SKIN, true},
                         {0.400, 0.009, 0.018, 0.003, Paint::SKIN, true},
                         {0.424, 0.006, 0.009, 0.004, Paint::SKIN}};
-// From the hip along the leg.
+// The leg is measured from the hip.
 constexpr Form LEG[] = {{-0.045, 0.020, 0.024, 0.000, Paint::TROUSERS, true},
                         {-0.025, 0.040, 0.046, 0.000, Paint::TROUSERS, true},
                         {0.005, 0.047, 0.054, 0.000, Paint::TROUSERS},
@@ -84,7 +84,7 @@ constexpr Form LEG[] = {{-0.045, 0.020, 0.024, 0.000, Paint::TROUSERS, true},
                         {0.330, 0.034, 0.040, -0.006, Paint::TROUSERS},
                         {0.410, 0.030, 0.034, -0.004, Paint::TROUSERS, true},
                         {0.478, 0.029, 0.033, 0.000, Paint::TROUSERS}};
-// From the heel to the toes; `forward` is upwards here.
+// The shoe is measured from the heel to the toes; `forward` is upwards here.
 constexpr Form SHOE[] = {
     {-0.018, 0.009, 0.010, 0.002, Paint::SHOES, true}, {-0.010, 0.021, 0.022, 0.004, Paint::SHOES},
     {0.012, 0.025, 0.030, 0.012, Paint::SHOES, true},  {0.040, 0.026, 0.034, 0.016, Paint::SHOES},
