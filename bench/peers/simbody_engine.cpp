@@ -3,6 +3,7 @@
 #include <SimTKsimbody.h>
 
 #include <array>
+#include <cmath>
 #include <exception>
 #include <limits>
 
@@ -26,8 +27,11 @@ class SimbodyEngine : public Engine {
 
   void rest() override { state_ = start_, broken_ = false; }
 
-  // The engine throws once a state is not finite.
+  // The engine throws once a state is not finite, which takes as long as many steps.
   void step(int interval, double time, double h) override {
+    constexpr double TURNS = 100.0;  // far beyond any motion that is compared [rad]
+    for (int i = 0; i < state_.getNQ() && !broken_; ++i)
+      broken_ = !(std::fabs(state_.getQ()[i]) < TURNS);
     try {
       if (!broken_) take(interval, time, h);
     } catch (const std::exception&) {
