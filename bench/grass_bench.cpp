@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures grass: blades per second, plain and batched, against the memory bandwidth; treading per
 // node and per frame of a crowd; frames of a square kilometre.
-// usage: grass_bench [ROUNDS] [--part blades,walkers,strokes,kilometre]
+// usage: grass_bench [ROUNDS] [--part blades,ribbons,walkers,strokes,kilometre]
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +16,7 @@
 #include "options.h"
 #include "processor_time.h"
 #include "reference/grass/blade_plain.h"
+#include "reference/grass/ribbons_plain.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
@@ -91,6 +92,41 @@ void benchBlades(int rounds) {
     std::printf("%-22s %10.2f %12.1f %8.1f %12.2f\n", c.name.c_str(), c.seconds / blades * 1e9,
                 blades / c.seconds * 1e-6, candidates[1].seconds / c.seconds,
                 candidates[0].seconds / c.seconds);
+}
+
+// Measures blades of one tile after the other, posed and drawn as ribbons of five segments.
+void benchRibbons(int rounds) {
+  const FeatureMap map;
+  const std::vector<Tile> tiles = makeTiles(terrain::HeightMap());
+  const Blocks blocks = makeBlocks(sizeof(BladeBlock) * EACH / BLOCK);
+  TileMotion motion;
+  motion.wind_x = {2.f, 3.f, 2.5f, 1.f};
+  const GrassLight light;
+  constexpr std::size_t TILES = 64;
+  GrassMesh mesh;
+  std::vector<Candidate> candidates;
+  const auto add = [&](const std::string& name, const std::string& set, bool lit, bool plain) {
+    candidates.push_back({name + (lit ? ", lit" : ""), [&, set, lit, plain] {
+                            forceInstructionSet(set);
+                            RibbonStyle style;
+                            style.light = lit ? &light : nullptr;
+                            for (std::size_t i = 0; i < TILES; ++i) {
+                              mesh.clear();
+                              poseBlades(tiles[i], motion, EACH, blocks.get());
+                              (plain ? appendRibbonsPlain : appendRibbons)(
+                                  map, tiles[i], blocks.get(), EACH, style, mesh);
+                            }
+                            forceInstructionSet("");
+                          }});
+  };
+  for (const bool lit : {false, true}) {
+    add("plain ribbons", "", lit, true);
+    for (const std::string& set : instructionSets()) add(set, set, lit, false);
+  }
+  bench::timeOnProcessor(candidates, rounds);
+  std::printf("\nBlades posed and drawn with %d segments\n%-22s %10s\n", LINKS, "", "ns/blade");
+  for (const Candidate& c : candidates)
+    std::printf("%-22s %10.2f\n", c.name.c_str(), c.seconds / (TILES * EACH) * 1e9);
 }
 
 // ---- treading --------------------------------------------------------------------------------
@@ -298,8 +334,9 @@ int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
     const bench::Options options =
-        bench::readOptions(argc, argv, {"blades", "walkers", "strokes", "kilometre"});
+        bench::readOptions(argc, argv, {"blades", "ribbons", "walkers", "strokes", "kilometre"});
     if (options.wants("blades")) grass::benchBlades(options.rounds);
+    if (options.wants("ribbons")) grass::benchRibbons(options.rounds);
     if (options.wants("walkers")) grass::benchWalkers(options.rounds);
     if (options.wants("strokes")) grass::benchStrokes(options.rounds);
     if (options.wants("kilometre"))

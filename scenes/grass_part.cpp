@@ -68,7 +68,7 @@ void GrassPart::addTo(Hashes& hashes) {
   air.update(wind_.at(stamp_), {}, grass::MeadowLod::windowOf(views), &tiles);
   mesh_.clear();
   for (const grass::TileView& view : views) draw(view, air, hashes);
-  addFloats(mesh_.positions, hashes.display);
+  addFloats(mesh_.positions.data(), mesh_.positions.size(), hashes.display);
 }
 
 void GrassPart::draw(const grass::TileView& view, const grass::NodeWind& air, Hashes& hashes) {

@@ -10,4 +10,7 @@ namespace vegetation_sim {
 /// whole numbers, zero mean, C2.
 double gradientNoise(std::uint64_t seed, double x);
 
+/// Returns the noise at the share u of a cell between whole numbers with these slopes.
+double gradientNoise(double left_slope, double right_slope, double u);
+
 }  // namespace vegetation_sim

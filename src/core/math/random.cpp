@@ -10,9 +10,6 @@ std::array<std::uint32_t, 4> split(std::uint64_t low, std::uint64_t high) {
           static_cast<std::uint32_t>(high), static_cast<std::uint32_t>(high >> 32)};
 }
 
-// Keeps the numbers of a generator apart from the keys of its children.
-constexpr std::uint64_t NUMBERS = 0, CHILDREN = 1;
-
 std::uint64_t draw(std::uint64_t key, std::uint64_t index, std::uint64_t purpose) {
   const auto out = philox(split(index, purpose),
                           {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)});
@@ -34,15 +31,15 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c,
 }
 
 std::uint64_t Random::bits(std::uint64_t index) const {
-  return draw(key_, index, NUMBERS);
+  return draw(key_, index, RANDOM_NUMBERS);
 }
 
 double Random::uniform(std::uint64_t index) const {
-  return static_cast<double>(bits(index) >> 11) * (1.0 / 9007199254740992.0);
+  return uniformOf(bits(index));
 }
 
 Random Random::child(std::uint64_t index) const {
-  return Random(draw(key_, index, CHILDREN));
+  return Random(draw(key_, index, RANDOM_CHILDREN));
 }
 
 }  // namespace vegetation_sim

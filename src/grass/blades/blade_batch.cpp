@@ -36,8 +36,7 @@ HWY_INLINE void to(Lanes value, float* place) {
 HWY_INLINE void rootLanes(const Tile& tile, const TilePlan<float>& plan, Words index, int i,
                           Chunk& c) {
   const WordTag tag;
-  const Words base = mixLanes(hn::Xor(index, hn::Set(tag, static_cast<std::uint32_t>(tile.key)))) +
-                     hn::Set(tag, static_cast<std::uint32_t>(tile.key >> 32));
+  const Words base = baseLanes(tile.key, index);
   const Words first = wordLanes(base, 0), second = wordLanes(base, 1), third = wordLanes(base, 2);
   const Words byte = hn::Set(tag, 0xffU);
   const Lanes unit = all(static_cast<float>(1.0 / 16777216.0)), one = all(1.f);
@@ -53,8 +52,7 @@ HWY_INLINE void rootLanes(const Tile& tile, const TilePlan<float>& plan, Words i
   to(toLanes(low) * per_byte - one, c.lean_x + i);
   to(toLanes(high) * per_byte - one, c.lean_y + i);
   to(toLanes(hn::And(first, byte)) * all(static_cast<float>(1.0 / 256.0)), c.shortness + i);
-  if (plan.mixed)
-    to((toLanes(hn::ShiftRight<8>(wordLanes(base, 3))) + all(0.5f)) * unit, c.kind + i);
+  if (plan.mixed) to(kindLanes(base), c.kind + i);
 }
 
 // Blades before they are bent.

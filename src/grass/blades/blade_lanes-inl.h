@@ -79,6 +79,18 @@ HWY_INLINE Lanes toLanes(Words small) {
   return hn::ConvertTo(Tag(), hn::BitCast(IndexTag(), small));
 }
 
+// BladeRandom of these blades: the base of their words, and the numbers that select the species.
+HWY_INLINE Words baseLanes(std::uint64_t key, Words blade) {
+  const WordTag tag;
+  return mixLanes(hn::Xor(blade, hn::Set(tag, static_cast<std::uint32_t>(key)))) +
+         hn::Set(tag, static_cast<std::uint32_t>(key >> 32));
+}
+
+HWY_INLINE Lanes kindLanes(Words base) {
+  return (toLanes(hn::ShiftRight<8>(wordLanes(base, 3))) + all(0.5f)) *
+         all(static_cast<float>(1.0 / 16777216.0));
+}
+
 // ---- bilinear values -------------------------------------------------------------------------
 
 HWY_INLINE Lanes linearPlace(Lanes chance, Lanes a, Lanes b) {

@@ -9,16 +9,17 @@
 #include "grass/lod/node_wind.h"
 #include "grass/lod/tile_level.h"
 #include "grass/mesh/grass_light.h"
+#include "grass/mesh/mesh_list.h"
 
 namespace vegetation_sim::grass {
 
 /// Triangles of many tiles in one list.
 struct GrassMesh {
-  std::vector<float> positions;        ///< [vertices x 3] world, from the mesh's origin [m]
-  std::vector<float> texture;          ///< [vertices x 2]
-  std::vector<std::uint8_t> colours;   ///< [vertices x 4] red, green, blue, alpha
-  std::vector<std::uint32_t> indices;  ///< [triangles x 3]
-  Vec3 origin{Vec3::Zero()};           ///< origin of the positions, world [m]
+  MeshList<float> positions;        ///< [vertices x 3] world, from the mesh's origin [m]
+  MeshList<float> texture;          ///< [vertices x 2]
+  MeshList<std::uint8_t> colours;   ///< [vertices x 4] red, green, blue, alpha
+  MeshList<std::uint32_t> indices;  ///< [triangles x 3]
+  Vec3 origin{Vec3::Zero()};        ///< origin of the positions, world [m]
 
   std::size_t vertexCount() const { return positions.size() / 3; }
   void clear();

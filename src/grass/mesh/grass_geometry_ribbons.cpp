@@ -1,278 +1,319 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Batched blades as triangles. The traits of a blade are computed from the position of its root, so
-// that no random number is drawn twice.
+// that no random number is drawn twice. A block of blades is first computed with a row of memory
+// per number of a ribbon; the rows are then transposed into the lists of the mesh.
 
-#include <algorithm>
-#include <cmath>
+#include <cstring>
 
-#include "grass/blades/blade_placement.h"
-#include "grass/mesh/mesh_writer.h"
+#include "grass/mesh/ribbon_plan.h"
 
-namespace vegetation_sim::grass {
-namespace {
+// Vectors without arithmetic operators are not used; their processors run the plain target.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "grass/mesh/grass_geometry_ribbons.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-constexpr float STUBBLE_PALENESS = 0.3f;  ///< stems are drier than leaves
-constexpr float STUBBLE_SHADE = 0.4f;     ///< part of the shade of neighbours that stubble has
-constexpr float HALF_HIDDEN = 0.12f;      ///< cut grass that hides half of what is below [kg/m^2]
-constexpr int PETALS = 6;                 ///< corners of a flower around its middle
+#include "grass/mesh/ribbon_lanes-inl.h"
 
-struct Float3 {
-  float x, y, z;
+HWY_BEFORE_NAMESPACE();
+namespace vegetation_sim::grass::HWY_NAMESPACE {
+
+constexpr int QUAD = 4;  // rows that are transposed at once
+constexpr int MOST_VERTICES = 2 * LINKS + 1;
+constexpr int POSITION_ROWS = (3 * MOST_VERTICES + QUAD - 1) / QUAD * QUAD;
+constexpr int COLOUR_ROWS = (MOST_VERTICES + QUAD - 1) / QUAD * QUAD;
+
+// Numbers of the ribbons of one block.
+struct alignas(64) RibbonRows {
+  float position[POSITION_ROWS][BLOCK]{};
+  std::uint32_t colour[COLOUR_ROWS][BLOCK]{};
+  float side_x[BLOCK]{}, side_y[BLOCK]{}, side_z[BLOCK]{}, kind[BLOCK]{};
+  float flower[BLOCK]{};  // radius, 0: none [m]
 };
-constexpr Float3 HAY{0.66f, 0.60f, 0.33f};
-Float3 operator+(const Float3& a, const Float3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Float3 operator-(const Float3& a, const Float3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Float3 operator*(const Float3& a, float s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-Float3 narrow(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
-// Returns the unit vector across `along` that turns a ribbon's face to the viewer.
-Float3 sideOf(const Float3& along, const Float3& view) {
-  const Float3 c{along.y * view.z - along.z * view.y, along.z * view.x - along.x * view.z,
-                 along.x * view.y - along.y * view.x};
-  const float square = c.x * c.x + c.y * c.y + c.z * c.z;
-  return square > 1e-20f ? c * (1.f / std::sqrt(square)) : Float3{1.f, 0.f, 0.f};
-}
-
-// Returns which of the six points a ribbon of this many segments keeps.
-std::array<int, POINTS> keptPoints(int segments) {
-  switch (segments) {
-    case 1:
-      return {0, LINKS};
-    case 2:
-      return {0, 3, LINKS};
-    case 3:
-      return {0, 2, 4, LINKS};
-    default:
-      return {0, 1, 2, 3, 4, 5};
+// What all ribbons of the same number of segments have in common.
+struct RibbonPattern {
+  static constexpr int ROOM = 32;  // more than a ribbon takes, so that whole vectors are copied
+  explicit RibbonPattern(const RibbonPlan& plan) : segments(plan.style.segments) {
+    for (int k = 0; k <= segments; ++k) {
+      const std::size_t i = static_cast<std::size_t>(4 * k);
+      const float part = static_cast<float>(plan.kept[static_cast<std::size_t>(k)]) / LINKS;
+      way[static_cast<std::size_t>(k)] = part;
+      texture[i] = k < segments ? 0.f : 0.5f;
+      texture[i + 1] = k < segments ? part : 1.f;
+      if (k < segments) texture[i + 2] = 1.f, texture[i + 3] = part;
+    }
+    for (std::uint32_t t = 0; t < 2 * static_cast<std::uint32_t>(segments) - 1; ++t)
+      for (std::uint32_t corner = 0; corner < 3; ++corner) index[3 * t + corner] = t + corner;
   }
-}
+  int vertices() const { return 2 * segments + 1; }
+  int indices() const { return 3 * (2 * segments - 1); }
 
-// Returns the vector from a root at (x, y) of its tile to the nearest edge.
-Float3 wayToEdge(float x, float y, float size) {
-  const float east = size - x, north = size - y, least = std::min({x, east, y, north});
-  if (x == least) return {-x, 0.f, 0.f};
-  if (east == least) return {east, 0.f, 0.f};
-  return {0.f, y == least ? -y : north, 0.f};
-}
-
-std::uint8_t byteOfUnit(float part) {
-  constexpr float HALF = 0.5f;  // for rounding, since std::lround would call the library
-  return static_cast<std::uint8_t>(255.f * std::min(1.f, std::max(0.f, part)) + HALF);
-}
-
-/// Writes into reserved memory of a mesh.
-struct Writer {
-  float* position;
-  float* texture;
-  std::uint8_t* colour;
-  std::uint32_t* index;
-  std::uint32_t next;  ///< index of the next vertex
-
-  void vertex(const Float3& p, float u, float v, const Float3& c) {
-    position[0] = p.x, position[1] = p.y, position[2] = p.z;
-    texture[0] = u, texture[1] = v;
-    colour[0] = byteOfUnit(c.x), colour[1] = byteOfUnit(c.y), colour[2] = byteOfUnit(c.z);
-    colour[3] = 255;
-    position += 3, texture += 2, colour += 4, ++next;
-  }
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    index[0] = a, index[1] = b, index[2] = c;
-    index += 3;
-  }
+  int segments;
+  std::array<float, POINTS> way{};
+  alignas(64) std::array<float, ROOM> texture{};
+  alignas(64) std::array<std::uint32_t, ROOM> index{};
 };
+
+struct RibbonJob {
+  RibbonJob(const RibbonPlan& p, int blades)
+      : plan(p),
+        pattern(p),
+        light(p.style.light ? *p.style.light : GrassLight()),
+        count(blades),
+        leaving(static_cast<float>(p.style.leaving * blades)) {}
+  const RibbonPlan& plan;
+  RibbonPattern pattern;
+  FloatLight light;
+  int count;
+  float leaving;
+};
+
+HWY_INLINE void putPoint(const Lanes3& p, int vertex, int lane, RibbonRows& rows) {
+  hn::Store(p.x, Tag(), rows.position[3 * vertex] + lane);
+  hn::Store(p.y, Tag(), rows.position[3 * vertex + 1] + lane);
+  hn::Store(p.z, Tag(), rows.position[3 * vertex + 2] + lane);
+}
+
+HWY_INLINE Lanes3 ownColour(const RibbonPlan& plan, const LanesLook& look, const LanesCut& cut,
+                            Lanes u, Lanes v, Lanes chance) {
+  const float variety = plan.style.variety;
+  const Lanes pale = cut.is_cut * all(STUBBLE_PALENESS);
+  const Lanes dry =
+      at(plan.colour, u, v) + all(variety) * (all(0.35f) * chance * chance - all(0.06f));
+  const Lanes3 colour = scaled(sum(look.fresh, scaled(look.drying, unitOf(dry + pale))),
+                               all(1.f) + all(variety * 0.34f) * (chance - all(0.5f)));
+  if (!plan.isMown()) return colour;
+  return sum(colour, scaled(difference(all3(HAY), colour), cut.hidden));
+}
+
+// Computes the ribbons of the blades from `lane` of a block on. `blade` has their indices.
+HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words blade, int lane,
+                            RibbonRows& rows) {
+  const RibbonPlan& plan = job.plan;
+  const RibbonPattern& pattern = job.pattern;
+  const Lanes zero = hn::Zero(Tag()), one = all(1.f), size = all(plan.tile.size);
+  const Lanes x = hn::Load(Tag(), block.x[0] + lane), y = hn::Load(Tag(), block.y[0] + lane);
+  const Lanes u = x / size, v = y / size;
+  Lanes3 shift = all3(plan.corner);
+  if (plan.style.slide > 0.0)
+    shift = sum(shift, slideLanes(x, y, plan.tile.size, static_cast<float>(plan.style.slide)));
+  const auto point = [&](int k) HWY_ATTR {
+    return sum({hn::Load(Tag(), block.x[k] + lane), hn::Load(Tag(), block.y[k] + lane),
+                hn::Load(Tag(), block.z[k] + lane)},
+               shift);
+  };
+  const LanesLook look = lookLanes(plan, blade, u, v);
+  const LanesCut cut = plan.isMown() ? cutLanes(plan, u, v) : LanesCut{zero, zero};
+  LanesPiece piece;
+  piece.root = point(0);
+  const Lanes3 side =
+      sideLanes(difference(point(LINKS), piece.root), difference(all3(plan.eye), piece.root));
+  // Lightness and dryness vary, since blades of one colour look like plastic.
+  const Words dice =
+      mixLanes(hn::Xor(blade, hn::Set(WordTag(), static_cast<std::uint32_t>(plan.tile.key >> 32))));
+  const Lanes chance = toLanes(hn::And(dice, hn::Set(WordTag(), 0xffffU))) / all(65535.f);
+  piece.facing = hn::Abs(toLanes(hn::ShiftRight<16>(dice)) * all(1.f / 32768.f) - one);
+  piece.own = ownColour(plan, look, cut, u, v, chance);
+  const auto left = toLanes(hn::Set(WordTag(), static_cast<std::uint32_t>(job.count)) - blade);
+  const Lanes leaving = all(job.leaving);
+  const Lanes width = hn::IfThenElse(left < leaving, left / leaving, one);
+  const auto is_cut = cut.is_cut > zero;
+  for (int k = 0; k <= pattern.segments; ++k) {
+    const float way = pattern.way[static_cast<std::size_t>(k)];
+    piece.p = point(plan.kept[static_cast<std::size_t>(k)]);
+    piece.way = hn::IfThenElse(is_cut, all(1.f - STUBBLE_SHADE * (1.f - way)), all(way));
+    const Words pixel =
+        pixelLanes(plan.style.light ? litLanes(piece, job.light, plan.eye)
+                                    : scaled(piece.own, all(0.45f) + all(0.55f) * piece.way));
+    hn::Store(pixel, WordTag(), rows.colour[2 * k] + lane);
+    if (k == pattern.segments) {
+      putPoint(piece.p, 2 * k, lane, rows);
+      break;
+    }
+    const Lanes3 half = scaled(side, width * look.half * all(1.f - way * way));
+    putPoint(difference(piece.p, half), 2 * k, lane, rows);
+    putPoint(sum(piece.p, half), 2 * k + 1, lane, rows);
+    hn::Store(pixel, WordTag(), rows.colour[2 * k + 1] + lane);
+  }
+  hn::Store(side.x, Tag(), rows.side_x + lane);
+  hn::Store(side.y, Tag(), rows.side_y + lane);
+  hn::Store(side.z, Tag(), rows.side_z + lane);
+  hn::Store(look.kind, Tag(), rows.kind + lane);
+  hn::Store(hn::IfThenZeroElse(is_cut, width * look.flower), Tag(), rows.flower + lane);
+}
+
+// ---- writing -----------------------------------------------------------------------------------
+
+// Writes numbers `row` to row + 3 of the blades from `lane` on behind the places of their ribbons.
+#if HWY_TARGET == HWY_SCALAR
+constexpr int BESIDE = 1;
 
 template <class T>
-T* grow(std::vector<T>& list, std::size_t by) {
-  list.resize(list.size() + by);
-  return list.data() + (list.size() - by);
+HWY_INLINE void putQuad(const T (*rows)[BLOCK], int row, int lane, T* const* places) {
+  for (int i = 0; i < QUAD; ++i)
+    std::memcpy(places[lane] + row + i, rows[row + i] + lane, sizeof(T));
+}
+#else
+constexpr int BESIDE = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 8>()));
+
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void storeBlocks(D tag, hn::Vec<D> value, int row, T* const* places) {
+  if constexpr (BESIDE == QUAD) {
+    hn::StoreU(value, tag, places[0] + row);
+  } else {
+    const hn::Half<D> half;
+    hn::StoreU(hn::LowerHalf(half, value), half, places[0] + row);
+    hn::StoreU(hn::UpperHalf(half, value), half, places[QUAD] + row);
+  }
 }
 
-/// All blades of a tile.
-class Ribbons {
- public:
-  Ribbons(const FeatureMap& map, const Tile& tile, const RibbonStyle& style, const Vec3& origin)
-      : tile_(tile),
-        style_(style),
-        corner_(narrow(Vec3(tile.x, tile.y, tile.z) - origin)),
-        eye_(narrow(style.eye - origin)),
-        plan_(tile, TileMotion()),
-        colour_(tile.colour),
-        kept_(keptPoints(style.segments)) {
-    for (const SpeciesInput& s : map.species()) {
-      const Float3 fresh = narrow(s.species.colour), dry = narrow(s.species.dry_colour);
-      looks_.push_back({fresh, dry - fresh, narrow(s.species.flower_colour),
-                        static_cast<float>(0.5 * s.species.width * style.width),
-                        static_cast<float>(s.species.flower_radius * cubeRoot(style.width))});
-    }
-  }
-
-  void append(const BladeBlock* blocks, int count, GrassMesh& mesh) {
-    const auto n = static_cast<std::size_t>(style_.segments);
-    kinds_.resize(static_cast<std::size_t>(count));
-    flowers_.resize(static_cast<std::size_t>(count));
-    std::size_t flowers = 0;
-    for (int blade = 0; blade < count; ++blade) {
-      const int kind = kindOf(blocks[blade / BLOCK], blade);
-      kinds_[static_cast<std::size_t>(blade)] = kind;
-      flowers_[static_cast<std::size_t>(blade)] =
-          isCut(blocks[blade / BLOCK], blade) ? 0.f : looks_[static_cast<std::size_t>(kind)].flower;
-      flowers += flowers_[static_cast<std::size_t>(blade)] > 0.f ? 1 : 0;
-    }
-    const auto blades = static_cast<std::size_t>(count);
-    const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
-    const auto first = static_cast<std::uint32_t>(mesh.vertexCount());
-    Writer out{grow(mesh.positions, 3 * vertices), grow(mesh.texture, 2 * vertices),
-               grow(mesh.colours, 4 * vertices),
-               grow(mesh.indices, 3 * (blades * (2 * n - 1) + flowers * PETALS)), first};
-    const auto leaving = static_cast<float>(style_.leaving * count);
-    for (int blade = 0; blade < count; ++blade) {
-      const auto left = static_cast<float>(count - blade);
-      write(blocks[blade / BLOCK], blade, left < leaving ? left / leaving : 1.f, out);
-    }
-  }
-
- private:
-  struct Look {
-    Float3 fresh, drying, petal;
-    float half, flower;  ///< half the width at the root, radius of the flower [m]
+template <class T>
+HWY_INLINE void putQuad(const T (*rows)[BLOCK], int row, int lane, T* const* places) {
+  const hn::CappedTag<T, 8> tag;
+  const hn::RepartitionToWide<hn::RebindToUnsigned<decltype(tag)>> pairs;
+  const auto a = hn::Load(tag, rows[row] + lane), b = hn::Load(tag, rows[row + 1] + lane);
+  const auto c = hn::Load(tag, rows[row + 2] + lane), d = hn::Load(tag, rows[row + 3] + lane);
+  const auto ab_low = hn::BitCast(pairs, hn::InterleaveLower(tag, a, b));
+  const auto ab_high = hn::BitCast(pairs, hn::InterleaveUpper(tag, a, b));
+  const auto cd_low = hn::BitCast(pairs, hn::InterleaveLower(tag, c, d));
+  const auto cd_high = hn::BitCast(pairs, hn::InterleaveUpper(tag, c, d));
+  const auto put = [&](auto value, int i) HWY_ATTR {
+    storeBlocks(tag, hn::BitCast(tag, value), row, places + lane + i);
   };
+  put(hn::InterleaveLower(pairs, ab_low, cd_low), 0);
+  put(hn::InterleaveUpper(pairs, ab_low, cd_low), 1);
+  put(hn::InterleaveLower(pairs, ab_high, cd_high), 2);
+  put(hn::InterleaveUpper(pairs, ab_high, cd_high), 3);
+}
+#endif
 
-  struct Cut {
-    bool is_cut;
-    float hidden;  ///< share that is below cut grass
-  };
+// Writes the rows of all blades. The last rows come first: what they write too much is the begin of
+// the next blade, or a flower, which are written later.
+template <class T>
+HWY_INLINE void putRows(const T (*rows)[BLOCK], int count, T* const* places) {
+  for (int lane = 0; lane < BLOCK; lane += BESIDE)
+    for (int row = (count - 1) / QUAD * QUAD; row >= 0; row -= QUAD)
+      putQuad(rows, row, lane, places);
+}
 
-  int kindOf(const BladeBlock& block, int blade) const {
-    if (!plan_.mixed) return 0;
-    const int lane = blade % BLOCK;
-    const float u = block.x[0][lane] / tile_.size, v = block.y[0][lane] / tile_.size;
-    const auto last = static_cast<std::size_t>(tile_.species_count - 1);
-    const float aim = BladeRandom<float>(tile_.key, blade).kind() * plan_.shares[last].at(u, v);
-    int kind = 0;
-    for (std::size_t s = 1; s <= last; ++s)
-      if (aim > plan_.shares[s - 1].at(u, v)) kind = static_cast<int>(s);
-    return kind;
+template <class T>
+HWY_INLINE void copyPattern(const std::array<T, RibbonPattern::ROOM>& pattern, int count, T offset,
+                            T* to) {
+  const hn::CappedTag<T, 8> tag;
+  const auto shift = hn::Set(tag, offset);
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(tag)))
+    hn::StoreU(hn::Load(tag, pattern.data() + i) + shift, tag, to + i);
+}
+
+HWY_INLINE void skip(int vertices, int indices, MeshPlaces& out) {
+  out.position += 3 * vertices, out.texture += 2 * vertices, out.colour += 4 * vertices;
+  out.index += indices;
+  out.next += static_cast<std::uint32_t>(vertices);
+}
+
+void putFlowers(const RibbonPlan& plan, const RibbonRows& rows, int segments, int valid,
+                const MeshPlaces* flowers) {
+  for (int lane = 0; lane < valid; ++lane) {
+    if (!(rows.flower[lane] > 0.f)) continue;
+    const float(*tip)[BLOCK] = rows.position + 6 * segments;
+    MeshPlaces place = flowers[lane];
+    writeFlower(plan, {tip[0][lane], tip[1][lane], tip[2][lane]},
+                {rows.side_x[lane], rows.side_y[lane], rows.side_z[lane]}, rows.flower[lane],
+                plan.looks[static_cast<std::size_t>(rows.kind[lane])], place);
   }
+}
 
-  bool isCut(const BladeBlock& block, int blade) const { return cutAt(block, blade).is_cut; }
-  Cut cutAt(const BladeBlock& block, int blade) const {
-    if (!style_.crush || style_.crush->cut.empty()) return {false, 0.f};
-    const int lane = blade % BLOCK;
-    const std::size_t node =
-        style_.crush->nearest(block.x[0][lane] / tile_.size, block.y[0][lane] / tile_.size);
-    const float swath = style_.crush->swath[node];
-    return {style_.crush->cut[node] < UNCUT, swath / (swath + HALF_HIDDEN)};
-  }
-
-  void write(const BladeBlock& block, int blade, float width, Writer& out) const {
-    const int lane = blade % BLOCK;
-    const float x = block.x[0][lane], y = block.y[0][lane];
-    Float3 shift = corner_;
-    if (style_.slide > 0.0)
-      shift = shift + wayToEdge(x, y, tile_.size) * static_cast<float>(style_.slide);
-    const auto point = [&](int k) {
-      const auto i = static_cast<std::size_t>(k);
-      return Float3{block.x[i][lane], block.y[i][lane], block.z[i][lane]} + shift;
-    };
-    const Look& look = looks_[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(blade)])];
-    const Float3 root = point(0), tip = point(LINKS);
-    const Float3 side = sideOf(tip - root, eye_ - root);
-    // Lightness and dryness vary, since blades of one colour look like plastic.
-    const std::uint32_t dice =
-        mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile_.key >> 32));
-    const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
-    const float facing = std::fabs(static_cast<float>(dice >> 16) / 32768.f - 1.f);
-    const Cut cut = cutAt(block, blade);
-    const float pale = cut.is_cut ? STUBBLE_PALENESS : 0.f;
-    const float dry = colour_.at(x / tile_.size, y / tile_.size) +
-                      style_.variety * (0.35f * chance * chance - 0.06f);
-    Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
-                 (1.f + style_.variety * 0.34f * (chance - 0.5f));
-    own = own + (HAY - own) * cut.hidden;
-    const std::uint32_t first = out.next;
-    for (int k = 0; k <= style_.segments; ++k) {
-      const int at = kept_[static_cast<std::size_t>(k)];
-      const float way = static_cast<float>(at) / LINKS,
-                  half = width * look.half * (1.f - way * way);
-      const Float3 p = point(at);
-      const Float3 c =
-          shaded(own, p, root, cut.is_cut ? 1.f - STUBBLE_SHADE * (1.f - way) : way, facing);
-      if (k == style_.segments) {
-        out.vertex(p, 0.5f, 1.f, c);
-        break;
-      }
-      out.vertex(p - side * half, 0.f, way, c);
-      out.vertex(p + side * half, 1.f, way, c);
+// Writes a block, of which `valid` blades are drawn; the others are written too and not counted.
+HWY_INLINE void putBlock(const RibbonJob& job, const RibbonRows& rows, int valid, MeshPlaces& out) {
+  const RibbonPattern& pattern = job.pattern;
+  float* position[BLOCK];
+  std::uint32_t* colour[BLOCK];
+  MeshPlaces flowers[BLOCK]{}, end = out;
+  bool any = false;
+  for (int lane = 0; lane < BLOCK; ++lane) {
+    position[lane] = out.position;
+    colour[lane] = reinterpret_cast<std::uint32_t*>(out.colour);
+    copyPattern(pattern.texture, 2 * pattern.vertices(), 0.f, out.texture);
+    copyPattern(pattern.index, pattern.indices(), out.next, out.index);
+    skip(pattern.vertices(), pattern.indices(), out);
+    if (lane >= valid) continue;
+    if (rows.flower[lane] > 0.f) {
+      flowers[lane] = out;
+      any = true;
+      skip(PETALS + 1, 3 * PETALS, out);
     }
-    for (std::uint32_t t = 0; t + 1 < 2 * static_cast<std::uint32_t>(style_.segments); ++t)
-      out.triangle(first + t, first + t + 1, first + t + 2);
-    const float radius = flowers_[static_cast<std::size_t>(blade)];
-    if (radius > 0.f) flower(tip, side, width * radius, look, out);
+    end = out;
   }
+  putRows(rows.position, 3 * pattern.vertices(), position);
+  putRows(rows.colour, pattern.vertices(), colour);
+  if (any) putFlowers(job.plan, rows, pattern.segments, valid, flowers);
+  out = end;
+}
 
-  // Without light a blade is dark at the root, where neighbours shade it.
-  Float3 shaded(const Float3& own, const Float3& p, const Float3& root, float way,
-                float facing) const {
-    if (!style_.light) return own * (0.45f + 0.55f * way);
-    const Float3 lean = p - root, view = p - eye_;
-    const float flat = std::sqrt(lean.x * lean.x + lean.y * lean.y);
-    const float long_way = std::sqrt(flat * flat + lean.z * lean.z);
-    const float far = std::sqrt(view.x * view.x + view.y * view.y);
-    BladePiece piece;
-    piece.flat = long_way > 1e-6f ? flat / long_way : 0.f;
-    piece.facing = facing;
-    piece.way = way;
-    if (flat > 1e-6f && far > 1e-6f)
-      piece.away = (lean.x * view.x + lean.y * view.y) / (flat * far);
-    piece.flat *= piece.flat;
-    const PieceLight l = lightOn(*style_.light, piece);
-    return {own.x * l.factor[0] + l.shine[0], own.y * l.factor[1] + l.shine[1],
-            own.z * l.factor[2] + l.shine[2]};
+MeshPlaces writeRibbons(const RibbonPlan& plan, const BladeBlock* blocks, int count,
+                        MeshPlaces out) {
+  const RibbonJob job(plan, count);
+  const int step = static_cast<int>(hn::Lanes(Tag()));
+  RibbonRows rows;
+  Words blade = hn::Iota(WordTag(), 0);
+  for (int first = 0; first < count; first += BLOCK) {
+    for (int lane = 0; lane < BLOCK; lane += step) {
+      ribbonLanes(job, blocks[first / BLOCK], blade, lane, rows);
+      blade = blade + hn::Set(WordTag(), static_cast<std::uint32_t>(step));
+    }
+    putBlock(job, rows, std::min(BLOCK, count - first), out);
   }
+  return out;
+}
 
-  // Adds a disc that faces half upwards and half to the viewer.
-  void flower(const Float3& tip, const Float3& side, float r, const Look& look, Writer& out) const {
-    const Float3 across{side.x * r, side.y * r, side.z * r};
-    const Float3 up = Float3{-side.y * 0.5f, side.x * 0.5f, 0.8f} * r;
-    const Float3 light = style_.light ? shaded(look.petal, tip, tip, 1.f, 0.8f) : look.petal;
-    const std::uint32_t first = out.next;
-    constexpr std::array<std::array<float, 2>, PETALS> CORNERS{
-        {{-1.f, 0.f}, {-0.5f, -0.8f}, {0.5f, -0.8f}, {1.f, 0.f}, {0.5f, 0.8f}, {-0.5f, 0.8f}}};
-    // Pale flowers have a yellow centre, others a dark one.
-    const bool pale = std::min({look.petal.x, look.petal.y, look.petal.z}) > 0.6f;
-    out.vertex(tip, 0.5f, 0.5f, pale ? Float3{0.95f, 0.75f, 0.15f} : light * 0.35f);
-    for (const auto& corner : CORNERS)
-      out.vertex(tip + across * corner[0] + up * corner[1], 0.5f + 0.5f * corner[0],
-                 0.5f + 0.5f * corner[1], light * (0.9f + 0.1f * corner[1]));
-    for (std::uint32_t k = 0; k < PETALS; ++k)
-      out.triangle(first, first + 1 + k, first + 1 + (k + 1) % PETALS);
-  }
+}  // namespace vegetation_sim::grass::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-  const Tile& tile_;
-  const RibbonStyle& style_;
-  Float3 corner_, eye_;
-  TilePlan<float> plan_;
-  Bilinear<float> colour_;
-  std::array<int, POINTS> kept_;
-  std::vector<Look> looks_;
-  std::vector<int> kinds_;      ///< species of each blade
-  std::vector<float> flowers_;  ///< radius of the flower of each blade, 0: none [m]
-};
+#if HWY_ONCE
+namespace vegetation_sim::grass {
+
+HWY_EXPORT(writeRibbons);
+
+namespace {
+
+// Returns room for so many more numbers, and for those that whole vectors write beyond them.
+template <class T>
+T* growRoom(MeshList<T>& list, std::size_t by) {
+  constexpr std::size_t BEYOND = 32;
+  const std::size_t before = list.size();
+  list.resize(before + by + BEYOND);
+  return list.data() + before;
+}
+
+template <class T>
+void trimTo(const T* end, MeshList<T>& list) {
+  list.resize(static_cast<std::size_t>(end - list.data()));
+}
 
 }  // namespace
 
 void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* blocks, int count,
                    const RibbonStyle& style, GrassMesh& mesh) {
-  if (count > 0) Ribbons(map, tile, style, mesh.origin).append(blocks, count, mesh);
+  if (count <= 0) return;
+  const RibbonPlan plan(map, tile, style, mesh.origin);
+  const auto n = static_cast<std::size_t>(style.segments);
+  const auto blades = static_cast<std::size_t>(blocksFor(count) * BLOCK);
+  const std::size_t flowers = plan.hasFlowers() ? blades : 0;
+  const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
+  const auto next = static_cast<std::uint32_t>(mesh.vertexCount());
+  const MeshPlaces end = HWY_DYNAMIC_DISPATCH(writeRibbons)(
+      plan, blocks, count,
+      {growRoom(mesh.positions, 3 * vertices), growRoom(mesh.texture, 2 * vertices),
+       growRoom(mesh.colours, 4 * vertices),
+       growRoom(mesh.indices, 3 * (blades * (2 * n - 1) + flowers * PETALS)), next});
+  trimTo(end.position, mesh.positions);
+  trimTo(end.texture, mesh.texture);
+  trimTo(end.colour, mesh.colours);
+  trimTo(end.index, mesh.indices);
 }
 
 }  // namespace vegetation_sim::grass
+#endif

@@ -38,7 +38,7 @@ class MeshWriter {
 
  private:
   template <class T>
-  static T* grown(std::vector<T>& list, std::size_t by) {
+  static T* grown(MeshList<T>& list, std::size_t by) {
     list.resize(list.size() + by);
     return list.data() + (list.size() - by);
   }

@@ -5,48 +5,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/math_batch.h"
 #include "core/math/noise.h"
-#include "tree/growth/golden_angle.h"
+#include "core/math/random_batch.h"
+#include "tree/growth/limbs.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::forest {
 namespace {
 
-enum BranchDraw : std::uint64_t { LENGTH, PLACE, AZIMUTH, ANGLE, COUNT, LEAVES, LEAN, TREE };
+// Rz(theta) Ry(phi) of sine and cosine of half the angles.
+Quat restRotation(const SinCos& t, const SinCos& p) {
+  return {t.cos * p.cos, -t.sin * p.sin, t.cos * p.sin, t.sin * p.cos};
+}
 
-struct Limb {
-  int bearer{-1};  // index among the limbs one depth below
-  int segment{0};  // segment of the parent
-  double h{0.0};   // along that segment
-  double theta{0.0}, phi{0.0};
-  double length{0.0}, base_radius{0.0}, tip_radius{0.0};
-  int leaves{0};
-  std::uint64_t key{0};
-};
-
-double crownFactor(Crown crown, double f) {
-  switch (crown) {
-    case Crown::CONICAL:
-      return 1.0 - 0.88 * f;
-    case Crown::ROUND:
-      return 0.35 + 0.65 * 4.0 * f * (1.0 - f);
-    case Crown::FLAME:
-      return f < 0.3 ? 0.5 + f / 0.6 : 1.0 - 0.9 * (f - 0.3) / 0.7;
-    case Crown::EVEN:
-      break;
+// Numbers of the limbs of one depth, in their order.
+struct GroupNumbers {
+  explicit GroupNumbers(const std::vector<Limb>& limbs)
+      : key(limbs.size()), azimuth(key), angle(key), left(key), right(key), index(key) {
+    for (std::size_t l = 0; l < limbs.size(); ++l) {
+      key[l] = limbs[l].key;
+      azimuth[l] = limbs[l].azimuth;
+      angle[l] = limbs[l].angle;
+    }
+    for (std::vector<double>* list :
+         {&theta, &phi, &a, &b, &across, &up, &sin_theta, &cos_theta, &sin_phi, &cos_phi})
+      list->resize(limbs.size());
   }
-  return 1.0 - 0.25 * f;
-}
+  std::size_t size() const { return key.size(); }
 
-double radiusAt(const Limb& limb, double f) {
-  return limb.base_radius + (limb.tip_radius - limb.base_radius) * f;
-}
-
-// Returns a value in [-1, 1] times the species' noise; 0 leaves the bare rules (S1-12).
-double vary(const Species& species, const Random& random, BranchDraw draw) {
-  return std::min(1.0, species.noise) * random.uniform(draw, -1.0, 1.0);
-}
+  std::vector<std::uint64_t> key, azimuth, angle, left, right, index;
+  std::vector<double> theta, phi;  // rest turns [rad]
+  std::vector<double> a, b;        // turn of the direction about the axes of the segment before
+  std::vector<double> across, up;  // upwards in the frame of the segment before
+  std::vector<double> sin_theta, cos_theta, sin_phi, cos_phi;  // of half the rest turns
+};
 
 class Grower {
  public:
@@ -54,97 +48,17 @@ class Grower {
 
   Skeleton grow() {
     std::size_t count = 0;
-    const std::vector<std::vector<Limb>> limbs = sproutAll(count);
+    const std::vector<std::vector<Limb>> limbs = growLimbs(seed_, species_, count);
     out_.branches.reserve(count);
     for (std::size_t depth = 0; depth < limbs.size(); ++depth)
       addBranches(limbs[depth], static_cast<int>(depth));
-    measure();
+    if (!out_.branches.empty()) out_.trunk_radius = out_.branches.front().base_radius;
+    out_.reach = std::sqrt(reach_squared_);
     return std::move(out_);
   }
 
-  std::size_t count() const {
-    std::size_t out = 0;
-    sproutAll(out);
-    return out;
-  }
-
  private:
-  // Returns the limbs of each depth, and the number of their branches.
-  std::vector<std::vector<Limb>> sproutAll(std::size_t& count) const {
-    std::vector<std::vector<Limb>> limbs{{trunk()}};
-    for (int depth = 0; depth < species_.depths() && !limbs.back().empty(); ++depth) {
-      count += limbs.back().size() * static_cast<std::size_t>(rule(depth).segments);
-      if (depth + 1 < species_.depths()) limbs.push_back(sprout(limbs.back(), depth, count));
-    }
-    if (limbs.back().empty()) limbs.pop_back();
-    return limbs;
-  }
   const LimbRule& rule(int depth) const { return species_.limbs[static_cast<std::size_t>(depth)]; }
-
-  double vary(const Random& random, BranchDraw draw) const {
-    return forest::vary(species_, random, draw);
-  }
-
-  Limb trunk() const {
-    const Random random = Random(seed_.seed).child(TREE);
-    Limb out;
-    const double size = trunkScale(seed_, species_);
-    out.length = species_.height * size;
-    out.base_radius = species_.trunk_radius * size;
-    out.tip_radius = out.base_radius * rule(0).taper;
-    out.theta = seed_.yaw + species_.turn * vary(random, AZIMUTH);
-    out.phi = std::min(largestAngle(species_, 1.0), species_.lean * std::fabs(vary(random, LEAN)));
-    out.leaves = leavesOf(random, 0);
-    out.key = random.key();
-    return out;
-  }
-  int leavesOf(const Random& limb, int depth) const {
-    return static_cast<int>(rule(depth).leaves + 0.5 + 0.5 * vary(limb, LEAVES));
-  }
-
-  // Adds the limbs of the next depth, grouped by parent. `grown` is the number of branches so far.
-  std::vector<Limb> sprout(const std::vector<Limb>& bearers, int depth, std::size_t grown) const {
-    std::vector<Limb> out;
-    const LimbRule& next = rule(depth + 1);
-    const auto room = static_cast<std::size_t>(std::max(0, MAX_BRANCHES - static_cast<int>(grown)) /
-                                               next.segments);
-    for (std::size_t b = 0; b < bearers.size(); ++b) {
-      const Random random = Random(bearers[b].key);
-      const double wanted = next.children * (1.0 + 0.2 * vary(random, COUNT));
-      const int count = static_cast<int>(wanted + 0.5 + 0.5 * vary(random, PLACE));
-      for (int i = 0; i < count && out.size() < room; ++i)
-        out.push_back(lateral(bearers[b], static_cast<int>(b), depth + 1, i, count));
-    }
-    return out;
-  }
-
-  Limb lateral(const Limb& bearer, int bearer_index, int depth, int i, int count) const {
-    const LimbRule& r = rule(depth);
-    const Random random = Random(bearer.key).child(static_cast<std::uint64_t>(i) + 16);
-    const int whorls = (count + r.whorl - 1) / r.whorl, turn = i / r.whorl;
-    const double place = (turn + 0.5 + 0.25 * vary(random, PLACE)) / whorls;
-    const double f = std::min(r.start + (r.end - r.start) * place, 0.999);
-    Limb out;
-    out.bearer = bearer_index;
-    const double along = f * rule(depth - 1).segments;
-    out.segment = static_cast<int>(along);
-    out.h = (along - out.segment) * bearer.length / rule(depth - 1).segments;
-    out.length = bearer.length * r.length * crownFactor(r.crown, place) *
-                 (1.0 + r.length_variation * vary(random, LENGTH));
-    const double bearer_radius = radiusAt(bearer, f);
-    out.base_radius = std::max(bearer_radius * r.radius, species_.twig_radius);
-    out.tip_radius = std::max(out.base_radius * r.taper, species_.twig_radius);
-    out.length = std::min(out.length, species_.slenderness * out.base_radius);
-    const double spread = 2.0 * PI * (i % r.whorl) / r.whorl;
-    out.theta = turn * GOLDEN_ANGLE + spread + 0.3 * vary(random, AZIMUTH);
-    const double angle = r.angle_low + (r.angle_high - r.angle_low) * place +
-                         r.angle_variation * vary(random, ANGLE);
-    const double widest = largestAngle(species_, out.base_radius / bearer_radius);
-    out.phi = std::max(0.0, std::min(angle, widest));
-    out.leaves = leavesOf(random, depth);
-    out.key = random.key();
-    return out;
-  }
 
   // Branch (limb l, segment s) of a depth gets index begin + s * limbs + l: groups by segment.
   void addBranches(const std::vector<Limb>& limbs, int depth) {
@@ -152,99 +66,148 @@ class Grower {
     const int count = static_cast<int>(limbs.size()), segments = rule(depth).segments;
     const int bearer_begin = depth > 1 ? out_.depth_end[static_cast<std::size_t>(depth) - 2] : 0;
     out_.branches.resize(static_cast<std::size_t>(begin + count * segments));
+    GroupNumbers numbers(limbs);
     for (int s = 0; s < segments; ++s) {
+      const int first = begin + s * count;
       for (int l = 0; l < count; ++l) {
-        Branch& branch = out_.branches[static_cast<std::size_t>(begin + s * count + l)];
+        Branch& branch = out_.branches[static_cast<std::size_t>(first + l)];
         const Limb& limb = limbs[static_cast<std::size_t>(l)];
         branch.depth = depth;
-        branch.next = s + 1 < segments ? begin + (s + 1) * count + l : -1;
-        if (s > 0) {
-          branch.parent = begin + (s - 1) * count + l;
-          proceed(limb, s, branch);
-        } else {
-          if (depth > 0) branch.parent = bearer_begin + limb.segment * bearers_ + limb.bearer;
-          branch.h = limb.h;
-          branch.theta = limb.theta;
-          branch.phi = limb.phi;
-        }
-        finish(limb, s, branch);
+        branch.next = s + 1 < segments ? first + count + l : -1;
+        if (s > 0)
+          branch.parent = first - count + l;
+        else if (depth > 0)
+          branch.parent = bearer_begin + limb.segment * bearers_ + limb.bearer;
       }
-      out_.groups.push_back({begin + s * count, begin + (s + 1) * count, depth});
+      if (s == 0)
+        leave(limbs, first, numbers);
+      else
+        proceed(depth, s, first, numbers);
+      finish(limbs, depth, s, first, numbers);
+      out_.groups.push_back({first, first + count, depth});
     }
     out_.depth_end.push_back(static_cast<int>(out_.branches.size()));
     bearers_ = count;
   }
 
-  // Direction of segment s > 0: noise and tropism turn it away from the segment before.
-  void proceed(const Limb& limb, int s, Branch& branch) const {
-    const Branch& before = out_.branches[static_cast<std::size_t>(branch.parent)];
-    const LimbRule& r = rule(before.depth);
-    branch.h = before.length;
-    const double step = species_.noise * r.wander / r.segments;
-    const Random random(limb.key);
-    double a = step * 2.0 * gradientNoise(random.bits(AZIMUTH), 0.37 + 0.61 * s);
-    double b = step * 2.0 * gradientNoise(random.bits(ANGLE), 0.71 + 0.61 * s);
-    const Vec3 up(
-        axisX(before.rest.orientation).z(), axisY(before.rest.orientation).z(),
-        axisZ(before.rest.orientation).z());  // upwards in the frame of the segment before
-    const double across = std::sqrt(up.x() * up.x() + up.y() * up.y());
-    if (across > 1e-9) {
-      const double turn = r.rise / r.segments, left = arcTangent(across, up.z());
-      const double bend = turn > 0.0 ? std::min(turn, left) : std::max(turn, left - PI);
-      a += bend * up.x() / across;
-      b += bend * up.y() / across;
+  // Directions of the first segments.
+  void leave(const std::vector<Limb>& limbs, int first, GroupNumbers& numbers) {
+    for (std::size_t l = 0; l < limbs.size(); ++l) {
+      Branch& branch = out_.branches[static_cast<std::size_t>(first) + l];
+      branch.h = limbs[l].h;
+      numbers.theta[l] = branch.theta = limbs[l].theta;
+      numbers.phi[l] = branch.phi = limbs[l].phi;
     }
-    branch.theta = arcTangent(b, a);
-    branch.phi = std::min(std::sqrt(a * a + b * b), largestAngle(species_, 1.0));
-    branch.roll = before.roll - branch.theta;
   }
 
-  void finish(const Limb& limb, int s, Branch& branch) const {
-    const LimbRule& r = rule(branch.depth);
-    branch.length = limb.length / r.segments;
-    branch.base_radius = radiusAt(limb, static_cast<double>(s) / r.segments);
-    branch.tip_radius = radiusAt(limb, (s + 1.0) / r.segments);
-    branch.leaves = limb.leaves * (s + 1) / r.segments - limb.leaves * s / r.segments;
-    branch.key = Random(limb.key).child(static_cast<std::uint64_t>(s)).key();
-    branch.turn = restRotation(branch.theta, branch.phi);
+  // Directions of segment s > 0: noise and tropism turn it away from the segment before.
+  void proceed(int depth, int s, int first, GroupNumbers& numbers) {
+    const LimbRule& r = rule(depth);
+    const double step = species_.noise * r.wander / r.segments, turn = r.rise / r.segments;
+    addNoise(step, 0.37 + 0.61 * s, numbers.azimuth, numbers, numbers.a);
+    addNoise(step, 0.71 + 0.61 * s, numbers.angle, numbers, numbers.b);
+    bendUpwards(turn, first, numbers);
+    batchArcTangent(numbers.b.data(), numbers.a.data(), numbers.size(), numbers.theta.data());
+    const double widest = largestAngle(species_, 1.0);
+    for (std::size_t l = 0; l < numbers.size(); ++l) {
+      Branch& branch = out_.branches[static_cast<std::size_t>(first) + l];
+      const Branch& before = out_.branches[static_cast<std::size_t>(branch.parent)];
+      const double a = numbers.a[l], b = numbers.b[l];
+      branch.h = before.length;
+      branch.theta = numbers.theta[l];
+      branch.phi = numbers.phi[l] = std::min(std::sqrt(a * a + b * b), widest);
+      branch.roll = before.roll - branch.theta;
+    }
+  }
+
+  // Sets `out` to gradientNoise(seeds, x), which has amplitude `step`.
+  static void addNoise(double step, double x, const std::vector<std::uint64_t>& seeds,
+                       GroupNumbers& numbers, std::vector<double>& out) {
+    const double cell = std::floor(x), u = x - cell;
+    const auto index = static_cast<std::uint64_t>(cell);
+    drawBits(seeds.data(), seeds.size(), index, numbers.left.data());
+    drawBits(seeds.data(), seeds.size(), index + 1, numbers.right.data());
+    for (std::size_t l = 0; l < seeds.size(); ++l)
+      out[l] = step * 2.0 *
+               gradientNoise(-1.0 + 2.0 * Random::uniformOf(numbers.left[l]),
+                             -1.0 + 2.0 * Random::uniformOf(numbers.right[l]), u);
+  }
+
+  // Adds the tropism of one segment, which ends when the limb points upwards or downwards.
+  void bendUpwards(double turn, int first, GroupNumbers& numbers) {
+    for (std::size_t l = 0; l < numbers.size(); ++l) {
+      const Branch& branch = out_.branches[static_cast<std::size_t>(first) + l];
+      const Quat& q = out_.branches[static_cast<std::size_t>(branch.parent)].rest.orientation;
+      const double x = axisX(q).z(), y = axisY(q).z();
+      numbers.across[l] = std::sqrt(x * x + y * y);
+      numbers.up[l] = axisZ(q).z();
+    }
+    std::vector<double>& left = numbers.phi;  // for now
+    batchArcTangent(numbers.across.data(), numbers.up.data(), numbers.size(), left.data());
+    for (std::size_t l = 0; l < numbers.size(); ++l) {
+      const double across = numbers.across[l];
+      if (!(across > 1e-9)) continue;
+      const Branch& branch = out_.branches[static_cast<std::size_t>(first) + l];
+      const Quat& q = out_.branches[static_cast<std::size_t>(branch.parent)].rest.orientation;
+      const double bend = turn > 0.0 ? std::min(turn, left[l]) : std::max(turn, left[l] - PI);
+      numbers.a[l] += bend * axisX(q).z() / across;
+      numbers.b[l] += bend * axisY(q).z() / across;
+    }
+  }
+
+  // Sets the rest rotations and all that does not depend on directions.
+  void finish(const std::vector<Limb>& limbs, int depth, int s, int first, GroupNumbers& numbers) {
+    const std::size_t count = numbers.size();
+    std::fill(numbers.index.begin(), numbers.index.end(), static_cast<std::uint64_t>(s));
+    drawChildren(numbers.key.data(), numbers.index.data(), count, numbers.left.data());
+    for (double& angle : numbers.theta) angle *= 0.5;
+    for (double& angle : numbers.phi) angle *= 0.5;
+    batchSinCos(numbers.theta.data(), count, numbers.sin_theta.data(), numbers.cos_theta.data());
+    batchSinCos(numbers.phi.data(), count, numbers.sin_phi.data(), numbers.cos_phi.data());
+    const int segments = rule(depth).segments;
+    const double from = static_cast<double>(s) / segments, to = (s + 1.0) / segments;
+    for (std::size_t l = 0; l < count; ++l) {
+      const Limb& limb = limbs[l];
+      Branch& branch = out_.branches[static_cast<std::size_t>(first) + l];
+      branch.length = limb.length / segments;
+      branch.base_radius = radiusAt(limb, from);
+      branch.tip_radius = radiusAt(limb, to);
+      branch.leaves = limb.leaves * (s + 1) / segments - limb.leaves * s / segments;
+      branch.key = numbers.left[l];
+      branch.turn = restRotation({numbers.sin_theta[l], numbers.cos_theta[l]},
+                                 {numbers.sin_phi[l], numbers.cos_phi[l]});
+      place(branch);
+    }
+  }
+
+  void place(Branch& branch) {
     if (branch.parent < 0) {
       branch.rest.orientation = branch.turn;
-      return;
+    } else {
+      const Pose& parent = out_.branches[static_cast<std::size_t>(branch.parent)].rest;
+      branch.rest.orientation = parent.orientation * branch.turn;
+      branch.rest.position = parent.position + branch.h * axisZ(parent.orientation);
     }
-    const Pose& parent = out_.branches[static_cast<std::size_t>(branch.parent)].rest;
-    branch.rest.orientation = parent.orientation * branch.turn;
-    branch.rest.position = parent.position + branch.h * axisZ(parent.orientation);
-  }
-
-  void measure() {
-    if (!out_.branches.empty()) out_.trunk_radius = out_.branches.front().base_radius;
-    for (const Branch& branch : out_.branches) {
-      const Vec3 tip = tipOf(branch, branch.rest);
-      out_.height = std::max(out_.height, tip.z());
-      out_.reach = std::max(out_.reach, std::sqrt(tip.x() * tip.x() + tip.y() * tip.y()));
-    }
+    const Vec3 tip = tipOf(branch, branch.rest);
+    out_.height = std::max(out_.height, tip.z());
+    reach_squared_ = std::max(reach_squared_, tip.x() * tip.x() + tip.y() * tip.y());
   }
 
   const TreeSeed& seed_;
   const Species& species_;
   Skeleton out_;
+  double reach_squared_{0.0};
   int bearers_{0};  // limbs of the depth added last
 };
 
 }  // namespace
 
 Quat restRotation(double theta, double phi) {
-  const SinCos t = sinCos(0.5 * theta), p = sinCos(0.5 * phi);
-  return {t.cos * p.cos, -t.sin * p.sin, t.cos * p.sin, t.sin * p.cos};
+  return restRotation(sinCos(0.5 * theta), sinCos(0.5 * phi));
 }
 
 Vec3 tipOf(const Branch& branch, const Pose& pose) {
   return pose.position + branch.length * axisZ(pose.orientation);
-}
-
-double trunkScale(const TreeSeed& seed, const Species& species) {
-  const double change = vary(species, Random(seed.seed).child(TREE), LENGTH);
-  return seed.scale * (1.0 + species.height_variation * change);
 }
 
 Skeleton grow(const TreeSeed& seed, const Species& species) {
@@ -252,7 +215,9 @@ Skeleton grow(const TreeSeed& seed, const Species& species) {
 }
 
 std::size_t countBranches(const TreeSeed& seed, const Species& species) {
-  return Grower(seed, species).count();
+  std::size_t out = 0;
+  growLimbs(seed, species, out);
+  return out;
 }
 
 std::uint64_t Skeleton::hash() const {

@@ -42,11 +42,11 @@ HWY_INLINE LanesQuat localRotation(const BatchTree& tree, const FloatWind& wind,
 
 // The last vector of a group overlaps the next group, which is written after it.
 void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& group, float weight,
-               BatchPoses& out) {
+               bool bears, BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
   for (int i = group.begin; i < group.end; i += step) {
     const LanesQuat local = localRotation(tree, wind, weight, i);
-    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), i, out);
+    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), bears, i, out);
   }
 }
 
@@ -54,10 +54,11 @@ void poseGroup(const BatchTree& tree, const FloatWind& wind, const BatchGroup& g
 void poseBends(const BatchTree& tree, const BatchBends& bends, const BatchGroup& group,
                BatchPoses& out) {
   const int step = static_cast<int>(hn::Lanes(Tag()));
+  const bool bears = group.bears_depth < MAX_DEPTHS;
   for (int i = group.begin; i < group.end; i += step) {
     const LanesQuat rest{load(tree.r0, i), load(tree.r1, i), load(tree.r2, i), load(tree.r3, i)};
     const LanesQuat local = swingJoint(rest, load(bends.first, i), load(bends.second, i), all(1.f));
-    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), i, out);
+    carry(parentsOf(tree, group, out, i), local, load(tree.h, i), bears, i, out);
   }
 }
 
@@ -110,6 +111,24 @@ BatchGroup batchGroup(const Group& group, const std::vector<std::int32_t>& paren
   return out;
 }
 
+// Marks the groups whose poses other groups collect, and forgets the parents that none reads, since
+// whole vectors reach into the next group.
+void markBearers(BatchTree& tree) {
+  std::vector<int> bears(tree.parent.size(), MAX_DEPTHS);
+  for (const BatchGroup& group : tree.groups)
+    for (int i = group.begin; i < group.end; ++i) {
+      std::int32_t& parent = tree.parent[static_cast<std::size_t>(i)];
+      if (group.first_parent >= 0)
+        parent = 0;
+      else if (group.begin > 0 && group.depth < bears[static_cast<std::size_t>(parent)])
+        bears[static_cast<std::size_t>(parent)] = group.depth;
+    }
+  for (BatchGroup& group : tree.groups) {
+    group.bears_depth = *std::min_element(bears.begin() + group.begin, bears.begin() + group.end);
+    if (group.bears_depth < MAX_DEPTHS) tree.bearers = static_cast<std::size_t>(group.end);
+  }
+}
+
 void setGround(std::size_t slot, BatchPoses& out) {
   out.x[slot] = out.y[slot] = out.z[slot] = 0.f;
   out.qw[slot] = 1.f;
@@ -139,13 +158,14 @@ BatchPoser::BatchPoser(const Tree& tree) {
   const std::size_t n = tree.skeleton.branches.size(), size = n + PADDING;
   BatchTree& t = tree_;
   // The ground has the last slot, which no vector of the last group reaches.
-  t.parent.assign(size, static_cast<std::int32_t>(size - 1));
+  const auto ground = static_cast<std::int32_t>(size - 1);
+  t.parent.assign(size, 0);
   grow(size, {&t.h, &t.x, &t.y, &t.z, &t.r0, &t.r1, &t.r2, &t.r3});
   grow(size, {&t.ax, &t.ay, &t.az, &t.bx, &t.by, &t.bz});
   for (std::size_t i = 0; i < n; ++i) {
     const Branch& branch = tree.skeleton.branches[i];
     const Response& response = tree.response[i];
-    if (branch.parent >= 0) t.parent[i] = branch.parent;
+    t.parent[i] = branch.parent >= 0 ? branch.parent : ground;
     t.h[i] = narrow(branch.h);
     t.x[i] = narrow(branch.rest.position.x());
     t.y[i] = narrow(branch.rest.position.y());
@@ -159,6 +179,7 @@ BatchPoser::BatchPoser(const Tree& tree) {
     t.bz[i] = narrow(response.second.z());
   }
   for (const Group& group : tree.skeleton.groups) t.groups.push_back(batchGroup(group, t.parent));
+  markBearers(t);
   t.joint_model = tree.joint_model;
   t.drag = tree.drag;
   t.reference_speed = narrow(tree.reference_speed);
@@ -168,6 +189,7 @@ BatchPoser::BatchPoser(const Tree& tree) {
 void BatchPoser::ready(BatchPoses& out) const {
   const std::size_t size = tree_.parent.size();
   grow(size, {&out.x, &out.y, &out.z, &out.qw, &out.qx, &out.qy, &out.qz});
+  grow(FRAME * (tree_.bearers + PADDING), {&out.frames});
   setGround(size - 1, out);
   out.count = 0;
 }
@@ -178,8 +200,9 @@ void BatchPoser::pose(const wind::Instant& wind, const Weights& weights, int dep
   const FloatWind narrowed(wind, tree_.reach);
   for (const BatchGroup& group : tree_.groups) {
     if (group.depth >= depths) break;
-    const auto depth = static_cast<std::size_t>(group.depth);
-    HWY_DYNAMIC_DISPATCH(poseGroup)(tree_, narrowed, group, narrow(weights[depth]), out);
+    const float weight = narrow(weights[static_cast<std::size_t>(group.depth)]);
+    const bool bears = group.bears_depth < depths;
+    HWY_DYNAMIC_DISPATCH(poseGroup)(tree_, narrowed, group, weight, bears, out);
     out.count = group.end;
   }
 }

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "reference/grass/blade_plain.h"
+#include "reference/grass/ribbons_plain.h"
 #include "scenes/grass/grass_fixture.h"
+#include "vegetation_sim/core/config/instruction_set.h"
 
 namespace vegetation_sim::grass {
 namespace {
@@ -128,6 +130,84 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   mesh.clear();
   appendRibbons(map, tile, blocks.data(), 500, mown, mesh);
   EXPECT_EQ(mesh.indices.size(), 3u * 500u * 9u);
+}
+
+// A meadow with and without flowers, sloped, trodden and mown in the east.
+struct RibbonScene {
+  explicit RibbonScene(int species) : patch(rampPatch(1.2f, 0.8f, 0.6f)) {
+    MapInput input;
+    input.species.resize(static_cast<std::size_t>(species));
+    for (std::size_t s = 1; s < input.species.size(); ++s) {
+      input.species[s].species.name += std::to_string(s);
+      input.species[s].species.flower_radius = s % 2 == 1 ? 0.01 : 0.0;
+      input.species[s].species.flower_colour = Vec3(0.9, s == 1 ? 0.9 : 0.2, 0.9);
+      input.species[s].species.colour = Vec3(0.2, 0.3 + 0.1 * static_cast<double>(s), 0.1);
+      input.species[s].species.width *= 1.0 + static_cast<double>(s);
+    }
+    input.colour = {0.0, {2, 2, 1, {0, 1, 1, 0}}, 0.0, 1.0};
+    map = FeatureMap(input);
+    tile = makeTile(map, slopedGround(0.3, -0.1), 3, 4, 5);
+    motion.wind_x = {5.f, -6.f, 4.f, 50.f};
+    motion.wind_y = {0.f, 1.f, -1.f, 0.5f};
+    for (std::size_t i = 0; i < patch.tilt.size(); ++i) {
+      patch.cut.push_back(i % 11 < 5 ? UNCUT : 0.06f);
+      patch.swath.push_back(0.01f * static_cast<float>(i % 7));
+    }
+  }
+  FeatureMap map;
+  CrushPatch patch;
+  Tile tile;
+  TileMotion motion;
+};
+
+std::vector<RibbonStyle> ribbonStyles(const CrushPatch& patch, const GrassLight& light) {
+  std::vector<RibbonStyle> out;
+  for (const int segments : {1, 2, 3, 5})
+    for (const bool lit : {false, true})
+      for (const bool mown : {false, true}) {
+        RibbonStyle style;
+        style.segments = segments;
+        style.eye = Vec3(7.0, 9.0, 6.5);
+        style.light = lit ? &light : nullptr;
+        style.crush = mown ? &patch : nullptr;
+        style.slide = mown ? 0.0 : 0.3;
+        style.leaving = lit ? 0.25 : 0.0;
+        style.variety = lit ? 1.f : 0.f;
+        style.width = lit ? 1.7 : 1.0;
+        out.push_back(style);
+      }
+  return out;
+}
+
+TEST(Ribbons, HaveTheBitsOfPlainOnesOnEveryInstructionSet) {
+  const GrassLight light;
+  for (const int species : {1, 4}) {
+    RibbonScene scene(species);
+    for (const bool mown : {false, true}) {
+      scene.motion.crush = mown ? &scene.patch : nullptr;
+      for (const int count : {1, 15, 16, 333}) {
+        const auto blocks = posed(scene.tile, scene.motion, count);
+        for (const RibbonStyle& style : ribbonStyles(scene.patch, light)) {
+          GrassMesh plain;
+          plain.origin = Vec3(3.0, 4.0, 0.5);
+          appendRibbonsPlain(scene.map, scene.tile, blocks.data(), count, style, plain);
+          appendRibbonsPlain(scene.map, scene.tile, blocks.data(), count, style, plain);
+          for (const std::string& set : instructionSets()) {
+            forceInstructionSet(set);
+            GrassMesh mesh;
+            mesh.origin = plain.origin;
+            for (int i = 0; i < 2; ++i)
+              appendRibbons(scene.map, scene.tile, blocks.data(), count, style, mesh);
+            forceInstructionSet("");
+            ASSERT_EQ(mesh.positions, plain.positions) << set << ", " << style.segments;
+            ASSERT_EQ(mesh.texture, plain.texture) << set << ", " << style.segments;
+            ASSERT_EQ(mesh.colours, plain.colours) << set << ", " << style.segments;
+            ASSERT_EQ(mesh.indices, plain.indices) << set << ", " << style.segments;
+          }
+        }
+      }
+    }
+  }
 }
 
 // S2-10: four strips stand on the four edges, as high as the grass.

@@ -12,6 +12,10 @@ namespace vegetation_sim {
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 
+/// Third word of Philox's counter: keeps the numbers of a generator apart from the keys of its
+/// children.
+constexpr std::uint64_t RANDOM_NUMBERS = 0, RANDOM_CHILDREN = 1;
+
 /// Mixes the bits of a counter: a bijection of 32 bits that costs two multiplications (Wellons
 /// 2018, "lowbias32"). For millions of items that no state depends on, such as blades.
 inline std::uint32_t mix32(std::uint32_t x) {
@@ -30,6 +34,10 @@ class Random {
   explicit Random(std::uint64_t key) : key_(key) {}
 
   std::uint64_t key() const { return key_; }
+  /// Returns the number in [0, 1) that uniform() makes of these bits.
+  static double uniformOf(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * (1.0 / 9007199254740992.0);
+  }
   /// Returns 64 random bits for `index`.
   std::uint64_t bits(std::uint64_t index) const;
   /// Returns a uniform number in [0, 1).

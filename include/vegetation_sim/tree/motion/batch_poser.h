@@ -18,6 +18,8 @@ struct BatchPoses {
   int count{0};                       ///< branches that hold a pose
   std::vector<float> x, y, z;         ///< [branches] base [m]
   std::vector<float> qw, qx, qy, qz;  ///< [branches] orientation
+  /// Scratch of the poser: once more the poses of branches that bear limbs, each in a row.
+  std::vector<float> frames;
 
   Pose at(int branch) const;
 };
@@ -26,14 +28,16 @@ struct BatchPoses {
 void narrowPoses(const std::vector<Pose>& poses, BatchPoses& out);
 
 /// Branches begin to end, of one depth. first_parent is the parent of `begin` if all parents are
-/// consecutive, else -1.
+/// consecutive, else -1. bears_depth is the least depth of groups of the latter kind whose parents
+/// are here.
 struct BatchGroup {
   int begin{0}, end{0}, depth{0}, first_parent{-1};
+  int bears_depth{MAX_DEPTHS};
 };
 
 /// Rest data of one tree as a structure of arrays in single precision, padded to the widest vector.
 struct BatchTree {
-  std::vector<std::int32_t> parent;  ///< -1: the ground
+  std::vector<std::int32_t> parent;  ///< of groups without first_parent; of the others 0
   std::vector<float> h;              ///< along the parent [m]
   std::vector<float> x, y, z;        ///< base at rest [m]
   /// RotationSeries: rest rotation in the parent (w x y z). Paper: cos, sin of theta / 2, of phi
@@ -44,7 +48,8 @@ struct BatchTree {
   JointModel joint_model{JointModel::SWING};
   Drag drag{Drag::LINEAR};
   float reference_speed{8.f};
-  double reach{0.0};  ///< farthest branch from the trunk's foot, horizontally [m]
+  double reach{0.0};       ///< farthest branch from the trunk's foot, horizontally [m]
+  std::size_t bearers{0};  ///< one past the last branch of a group that bears
 };
 
 using physics::BatchBends;
@@ -66,6 +71,8 @@ class BatchPoser {
   /// Bytes of permanent rest data per branch.
   static constexpr int BYTES_PER_BRANCH = 15 * 4;
   static constexpr int PADDING = 32;
+  /// Floats of a row of BatchPoses::frames: x y z, qw qx qy qz, unused.
+  static constexpr int FRAME = 8;
 
  private:
   void ready(BatchPoses& out) const;
