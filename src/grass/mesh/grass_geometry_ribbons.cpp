@@ -159,14 +159,16 @@ HWY_INLINE void putQuad(const T (*rows)[BLOCK], int row, int lane, T* const* pla
 #else
 constexpr int BESIDE = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 8>()));
 
+// Writes blocks of four numbers in the order of the blades.
 template <class D, class T = hn::TFromD<D>>
-HWY_INLINE void storeBlocks(D tag, hn::Vec<D> value, int row, T* const* places) {
+HWY_INLINE void storeBlocks(D tag, const hn::Vec<D> (&quad)[QUAD], int row, T* const* places) {
   if constexpr (BESIDE == QUAD) {
-    hn::StoreU(value, tag, places[0] + row);
+    for (int i = 0; i < QUAD; ++i) hn::StoreU(quad[i], tag, places[i] + row);
   } else {
     const hn::Half<D> half;
-    hn::StoreU(hn::LowerHalf(half, value), half, places[0] + row);
-    hn::StoreU(hn::UpperHalf(half, value), half, places[QUAD] + row);
+    for (int i = 0; i < QUAD; ++i) hn::StoreU(hn::LowerHalf(half, quad[i]), half, places[i] + row);
+    for (int i = 0; i < QUAD; ++i)
+      hn::StoreU(hn::UpperHalf(half, quad[i]), half, places[QUAD + i] + row);
   }
 }
 
@@ -180,18 +182,17 @@ HWY_INLINE void putQuad(const T (*rows)[BLOCK], int row, int lane, T* const* pla
   const auto ab_high = hn::BitCast(pairs, hn::InterleaveUpper(tag, a, b));
   const auto cd_low = hn::BitCast(pairs, hn::InterleaveLower(tag, c, d));
   const auto cd_high = hn::BitCast(pairs, hn::InterleaveUpper(tag, c, d));
-  const auto put = [&](auto value, int i) HWY_ATTR {
-    storeBlocks(tag, hn::BitCast(tag, value), row, places + lane + i);
-  };
-  put(hn::InterleaveLower(pairs, ab_low, cd_low), 0);
-  put(hn::InterleaveUpper(pairs, ab_low, cd_low), 1);
-  put(hn::InterleaveLower(pairs, ab_high, cd_high), 2);
-  put(hn::InterleaveUpper(pairs, ab_high, cd_high), 3);
+  const hn::Vec<hn::CappedTag<T, 8>> quad[QUAD] = {
+      hn::BitCast(tag, hn::InterleaveLower(pairs, ab_low, cd_low)),
+      hn::BitCast(tag, hn::InterleaveUpper(pairs, ab_low, cd_low)),
+      hn::BitCast(tag, hn::InterleaveLower(pairs, ab_high, cd_high)),
+      hn::BitCast(tag, hn::InterleaveUpper(pairs, ab_high, cd_high))};
+  storeBlocks(tag, quad, row, places + lane);
 }
 #endif
 
-// Writes the rows of all blades. The last rows come first: what they write too much is the begin of
-// the next blade, or a flower, which are written later.
+// Writes the rows of all blades. The last rows and the first blades come first: what they write too
+// much is the begin of the next blade, or a flower, which are written later.
 template <class T>
 HWY_INLINE void putRows(const T (*rows)[BLOCK], int count, T* const* places) {
   for (int lane = 0; lane < BLOCK; lane += BESIDE)
