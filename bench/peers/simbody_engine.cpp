@@ -27,15 +27,19 @@ class SimbodyEngine : public Engine {
 
   void rest() override { state_ = start_, broken_ = false; }
 
-  // The engine throws once a state is not finite, which takes as long as many steps.
+  // The engine throws once a state is not finite. Steps after that begin at rest, so that they
+  // take their time.
   void step(int interval, double time, double h) override {
-    constexpr double TURNS = 100.0;  // far beyond any motion that is compared [rad]
-    for (int i = 0; i < state_.getNQ() && !broken_; ++i)
-      broken_ = !(std::fabs(state_.getQ()[i]) < TURNS);
+    constexpr double FARTHEST = 100.0;  // beyond any motion that is compared [rad]
+    bool wild = false;
+    for (int i = 0; i < state_.getNQ(); ++i) wild |= !(std::fabs(state_.getQ()[i]) < FARTHEST);
+    broken_ |= wild;
+    if (wild) state_ = start_;
     try {
-      if (!broken_) take(interval, time, h);
+      take(interval, time, h);
     } catch (const std::exception&) {
       broken_ = true;
+      state_ = start_;
     }
   }
 
