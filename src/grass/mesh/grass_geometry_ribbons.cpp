@@ -36,7 +36,7 @@ struct alignas(64) RibbonRows {
 // What all ribbons of the same number of segments have in common.
 struct RibbonPattern {
   static constexpr int ROOM = 32;  // more than a ribbon takes, so that whole vectors are copied
-  explicit RibbonPattern(const RibbonPlan& plan) : segments(plan.style.segments) {
+  explicit RibbonPattern(const RibbonPlan& plan) : segments(plan.segments()) {
     for (int k = 0; k <= segments; ++k) {
       const std::size_t i = static_cast<std::size_t>(4 * k);
       const float part = static_cast<float>(plan.kept[static_cast<std::size_t>(k)]) / LINKS;
@@ -48,9 +48,6 @@ struct RibbonPattern {
     for (std::uint32_t t = 0; t < 2 * static_cast<std::uint32_t>(segments) - 1; ++t)
       for (std::uint32_t corner = 0; corner < 3; ++corner) index[3 * t + corner] = t + corner;
   }
-  int vertices() const { return 2 * segments + 1; }
-  int indices() const { return 3 * (2 * segments - 1); }
-
   int segments;
   std::array<float, POINTS> way{};
   alignas(64) std::array<float, ROOM> texture{};
@@ -90,6 +87,7 @@ HWY_INLINE Lanes3 ownColour(const RibbonPlan& plan, const LanesLook& look, const
 }
 
 // Computes the ribbons of the blades from `lane` of a block on. `blade` has their indices.
+template <int SEGMENTS>
 HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words blade, int lane,
                             RibbonRows& rows) {
   const RibbonPlan& plan = job.plan;
@@ -121,7 +119,7 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
   const Lanes leaving = all(job.leaving);
   const Lanes width = hn::IfThenElse(left < leaving, left / leaving, one);
   const auto is_cut = cut.is_cut > zero;
-  for (int k = 0; k <= pattern.segments; ++k) {
+  for (int k = 0; k <= SEGMENTS; ++k) {
     const float way = pattern.way[static_cast<std::size_t>(k)];
     piece.p = point(plan.kept[static_cast<std::size_t>(k)]);
     piece.way = hn::IfThenElse(is_cut, all(1.f - STUBBLE_SHADE * (1.f - way)), all(way));
@@ -129,7 +127,7 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
         pixelLanes(plan.style.light ? litLanes(piece, job.light, plan.eye)
                                     : scaled(piece.own, all(0.45f) + all(0.55f) * piece.way));
     hn::Store(pixel, WordTag(), rows.colour[2 * k] + lane);
-    if (k == pattern.segments) {
+    if (k == SEGMENTS) {
       putPoint(piece.p, 2 * k, lane, rows);
       break;
     }
@@ -193,19 +191,18 @@ HWY_INLINE void putQuad(const T (*rows)[BLOCK], int row, int lane, T* const* pla
 
 // Writes the rows of all blades. The last rows and the first blades come first: what they write too
 // much is the begin of the next blade, or a flower, which are written later.
-template <class T>
-HWY_INLINE void putRows(const T (*rows)[BLOCK], int count, T* const* places) {
+template <int COUNT, class T>
+HWY_INLINE void putRows(const T (*rows)[BLOCK], T* const* places) {
   for (int lane = 0; lane < BLOCK; lane += BESIDE)
-    for (int row = (count - 1) / QUAD * QUAD; row >= 0; row -= QUAD)
+    for (int row = (COUNT - 1) / QUAD * QUAD; row >= 0; row -= QUAD)
       putQuad(rows, row, lane, places);
 }
 
-template <class T>
-HWY_INLINE void copyPattern(const std::array<T, RibbonPattern::ROOM>& pattern, int count, T offset,
-                            T* to) {
+template <int COUNT, class T>
+HWY_INLINE void copyPattern(const std::array<T, RibbonPattern::ROOM>& pattern, T offset, T* to) {
   const hn::CappedTag<T, 8> tag;
   const auto shift = hn::Set(tag, offset);
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(tag)))
+  for (int i = 0; i < COUNT; i += static_cast<int>(hn::Lanes(tag)))
     hn::StoreU(hn::Load(tag, pattern.data() + i) + shift, tag, to + i);
 }
 
@@ -227,47 +224,69 @@ void putFlowers(const RibbonPlan& plan, const RibbonRows& rows, int segments, in
   }
 }
 
+// Places in the mesh of the ribbons and flowers of one block.
+struct BlockPlaces {
+  float* position[BLOCK]{};
+  std::uint32_t* colour[BLOCK]{};
+  MeshPlaces flower[BLOCK]{};
+};
+
 // Writes a block, of which `valid` blades are drawn; the others are written too and not counted.
-HWY_INLINE void putBlock(const RibbonJob& job, const RibbonRows& rows, int valid, MeshPlaces& out) {
-  const RibbonPattern& pattern = job.pattern;
-  float* position[BLOCK];
-  std::uint32_t* colour[BLOCK];
-  MeshPlaces flowers[BLOCK]{}, end = out;
+template <int SEGMENTS>
+HWY_INLINE void putBlock(const RibbonJob& job, const RibbonRows& rows, int valid,
+                         BlockPlaces& places, MeshPlaces& out) {
+  constexpr int VERTICES = 2 * SEGMENTS + 1, INDICES = 3 * (2 * SEGMENTS - 1);
+  MeshPlaces end = out;
   bool any = false;
   for (int lane = 0; lane < BLOCK; ++lane) {
-    position[lane] = out.position;
-    colour[lane] = reinterpret_cast<std::uint32_t*>(out.colour);
-    copyPattern(pattern.texture, 2 * pattern.vertices(), 0.f, out.texture);
-    copyPattern(pattern.index, pattern.indices(), out.next, out.index);
-    skip(pattern.vertices(), pattern.indices(), out);
+    places.position[lane] = out.position;
+    places.colour[lane] = reinterpret_cast<std::uint32_t*>(out.colour);
+    copyPattern<2 * VERTICES>(job.pattern.texture, 0.f, out.texture);
+    copyPattern<INDICES>(job.pattern.index, out.next, out.index);
+    skip(VERTICES, INDICES, out);
     if (lane >= valid) continue;
     if (rows.flower[lane] > 0.f) {
-      flowers[lane] = out;
+      places.flower[lane] = out;
       any = true;
       skip(PETALS + 1, 3 * PETALS, out);
     }
     end = out;
   }
-  putRows(rows.position, 3 * pattern.vertices(), position);
-  putRows(rows.colour, pattern.vertices(), colour);
-  if (any) putFlowers(job.plan, rows, pattern.segments, valid, flowers);
+  putRows<3 * VERTICES>(rows.position, places.position);
+  putRows<VERTICES>(rows.colour, places.colour);
+  if (any) putFlowers(job.plan, rows, SEGMENTS, valid, places.flower);
   out = end;
+}
+
+template <int SEGMENTS>
+HWY_INLINE MeshPlaces writeAll(const RibbonJob& job, const BladeBlock* blocks, MeshPlaces out) {
+  const int step = static_cast<int>(hn::Lanes(Tag()));
+  RibbonRows rows;
+  BlockPlaces places;
+  Words blade = hn::Iota(WordTag(), 0);
+  for (int first = 0; first < job.count; first += BLOCK) {
+    for (int lane = 0; lane < BLOCK; lane += step) {
+      ribbonLanes<SEGMENTS>(job, blocks[first / BLOCK], blade, lane, rows);
+      blade = blade + hn::Set(WordTag(), static_cast<std::uint32_t>(step));
+    }
+    putBlock<SEGMENTS>(job, rows, std::min(BLOCK, job.count - first), places, out);
+  }
+  return out;
 }
 
 MeshPlaces writeRibbons(const RibbonPlan& plan, const BladeBlock* blocks, int count,
                         MeshPlaces out) {
   const RibbonJob job(plan, count);
-  const int step = static_cast<int>(hn::Lanes(Tag()));
-  RibbonRows rows;
-  Words blade = hn::Iota(WordTag(), 0);
-  for (int first = 0; first < count; first += BLOCK) {
-    for (int lane = 0; lane < BLOCK; lane += step) {
-      ribbonLanes(job, blocks[first / BLOCK], blade, lane, rows);
-      blade = blade + hn::Set(WordTag(), static_cast<std::uint32_t>(step));
-    }
-    putBlock(job, rows, std::min(BLOCK, count - first), out);
+  switch (plan.segments()) {
+    case 1:
+      return writeAll<1>(job, blocks, out);
+    case 2:
+      return writeAll<2>(job, blocks, out);
+    case 3:
+      return writeAll<3>(job, blocks, out);
+    default:
+      return writeAll<LINKS>(job, blocks, out);
   }
-  return out;
 }
 
 }  // namespace vegetation_sim::grass::HWY_NAMESPACE
@@ -300,7 +319,7 @@ void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* bl
                    const RibbonStyle& style, GrassMesh& mesh) {
   if (count <= 0) return;
   const RibbonPlan plan(map, tile, style, mesh.origin);
-  const auto n = static_cast<std::size_t>(style.segments);
+  const auto n = static_cast<std::size_t>(plan.segments());
   const auto blades = static_cast<std::size_t>(blocksFor(count) * BLOCK);
   const std::size_t flowers = plan.hasFlowers() ? blades : 0;
   const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);

@@ -48,6 +48,10 @@ struct RibbonPlan {
              const Vec3& origin);
   /// Returns whether any species has flowers.
   bool hasFlowers() const;
+  /// Returns the number of segments of a ribbon: 1, 2, 3 or LINKS.
+  int segments() const {
+    return style.segments >= 1 && style.segments <= 3 ? style.segments : LINKS;
+  }
   /// Returns whether the ground of the tile has been mown.
   bool isMown() const { return style.crush && !style.crush->cut.empty(); }
 
