@@ -13,8 +13,7 @@ void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic
 
 void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};
-  handle_ = handle;
-  topic_ = topic;
+  subscribe_full_ = [this, handle, topic]() mutable { subscribeState(handle, topic, 10); };
   const boost::function<void(const CrowdView&)> callback = [this](const CrowdView& message) {
     apply(message);
   };
@@ -23,12 +22,12 @@ void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& t
 
 // The publisher of the rounded people may appear after that of the others, or end before it.
 void SubscribedCrowd::selectTopic() {
-  if (topic_.empty()) return;
+  if (!subscribe_full_) return;
   const bool rounded = subscribers_.front().getNumPublishers() > 0;
   if (rounded && subscribers_.size() > 1)
     subscribers_.pop_back();
   else if (!rounded && subscribers_.size() == 1)
-    subscribeState(handle_, topic_, 10);
+    subscribe_full_();
 }
 
 bool SubscribedCrowd::accepts(const AgentStates& message) {

@@ -5,6 +5,7 @@
 #include <vegetation_sim/AgentStates.h>
 #include <vegetation_sim/CrowdView.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,7 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   void clear(const char* why);
   void replace(std::vector<Person> people, const std_msgs::Header& header);
 
-  ros::NodeHandle handle_;
-  std::string topic_;  // of subscribeView(); empty without it
+  std::function<void()> subscribe_full_;  // to the topic without /view; null without a view
   std::vector<Person> people_;
   Nanoseconds stamp_{0};
   int changes_{0}, seen_changes_{0};

@@ -89,7 +89,7 @@ TEST(CrowdConversionsView, AViewDiffersFromTheWalkersByHalfAStep) {
 }
 
 // The ends of limbs follow from all numbers together.
-TEST(CrowdConversionsView, BodiesOfAViewAreThoseOfTheWalkersWithinTwoCentimetres) {
+TEST(CrowdConversionsView, BodiesOfAViewAreThoseOfTheWalkersWithinACentimetre) {
   Strollers s;
   double worst = 0.0, sum = 0.0;
   int ends = 0;
@@ -109,7 +109,7 @@ TEST(CrowdConversionsView, BodiesOfAViewAreThoseOfTheWalkersWithinTwoCentimetres
   }
   RecordProperty("worst_um", static_cast<int>(1e6 * worst));
   RecordProperty("mean_um", static_cast<int>(1e6 * sum / ends));
-  EXPECT_LT(worst, 0.02);
+  EXPECT_LT(worst, 0.01);
   EXPECT_LT(sum / ends, 0.001);
 }
 
