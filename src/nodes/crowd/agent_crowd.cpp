@@ -5,6 +5,7 @@
 #include "nodes/base/node_factory.h"
 
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdView.h>
 
 #include "core/config/field_values.h"
 #include "nodes/crowd/crowd_events.h"
@@ -29,6 +30,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
   populate();
   agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
+  view_publisher_ = handle_.advertise<CrowdView>("agents/view", 100);
   tread_publisher_ = handle_.advertise<TreadEvent>("tread", 10000);
   start("crowd", "agents/markers", markers_);
 }
@@ -71,6 +73,7 @@ void AgentCrowd::tick(std::int64_t) {
   updateNextId();
   crowd_.advance(stamp);
   publishAgents(stamp);
+  publishView(stamp);
   publishTreads(stamp);
 }
 

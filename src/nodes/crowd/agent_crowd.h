@@ -80,6 +80,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   // Outputs.
   void publishAgents(Nanoseconds stamp);
+  void publishView(Nanoseconds stamp);
   void publishTreads(Nanoseconds stamp);
   void publishTread(const TreadEvent& event);
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
@@ -120,10 +121,10 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   using Walked = std::map<std::uint32_t, Trodden>;  // by walker
   static void archive(Archive& a, Walked& walked);
   Walked trodden_;
-  std::uint64_t treads_{0}, state_bytes_{0};
+  std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher agents_publisher_, tread_publisher_;
+  ros::Publisher agents_publisher_, view_publisher_, tread_publisher_;
 };
 
 }  // namespace vegetation_sim

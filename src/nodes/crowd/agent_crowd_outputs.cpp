@@ -32,6 +32,16 @@ void AgentCrowd::publishAgents(Nanoseconds stamp) {
   agents_publisher_.publish(message);
 }
 
+// Displays read this, sensors and plants `agents`, which does not depend on who reads it.
+void AgentCrowd::publishView(Nanoseconds stamp) {
+  if (view_publisher_.getNumSubscribers() == 0) return;
+  CrowdView message = toView(crowd_.walkers(), crowd_.terrain());
+  message.header.stamp = toStamp(stamp);
+  message.header.frame_id = options_.frame_id;
+  view_bytes_ += ros::serialization::serializationLength(message);
+  view_publisher_.publish(message);
+}
+
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
   if (options_.tread == Treading::NONE) return;
   for (const crowd::Walker& walker : crowd_.walkers()) {
@@ -153,6 +163,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);
+  status.add("View sent [B]", view_bytes_);
 }
 
 // The tf frames do not affect the walkers.

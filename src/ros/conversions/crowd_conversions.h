@@ -7,6 +7,7 @@
 #include <vegetation_sim/AgentState.h>
 #include <vegetation_sim/AgentStates.h>
 #include <vegetation_sim/CrowdRobot.h>
+#include <vegetation_sim/CrowdView.h>
 
 #include <memory>
 #include <vector>
@@ -22,6 +23,17 @@ crowd::Walker fromMsg(const AgentState& message);
 /// Converts received walkers. @throws InvalidInput with all faults, each with id, value and
 /// range.
 void check(const AgentStates& message);
+
+/// A walker as a display draws it.
+struct WalkerView {
+  crowd::Walker walker;
+  double ground{0.0};  ///< height of the ground at the walker [m]
+};
+/// Rounds walkers, by rising id, on the terrain. What no display needs is left out: radius, goal
+/// and progress.
+CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain);
+/// Reads rounded walkers. @throws InvalidInput with all faults, each with name, value and range.
+std::vector<WalkerView> fromMsg(const CrowdView& message);
 
 AgentSpawn toMsg(const crowd::Spawn& spawn);
 /// Numbers that are not given have their defaults. Adds a fault for a number without its flag;

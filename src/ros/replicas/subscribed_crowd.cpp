@@ -4,13 +4,30 @@
 
 #include <algorithm>
 
-#include "ros/conversions/crowd_conversions.h"
-
 namespace vegetation_sim {
 
 void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};
   subscribeState(handle, topic, 10);
+}
+
+void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& topic) {
+  status_ = {false, "No people on " + handle.resolveName(topic)};
+  subscribe_full_ = [this, handle, topic]() mutable { subscribeState(handle, topic, 10); };
+  const boost::function<void(const CrowdView&)> callback = [this](const CrowdView& message) {
+    apply(message);
+  };
+  subscribers_.push_back(handle.subscribe<CrowdView>(topic + "/view", 10, callback));
+}
+
+// The publisher of the rounded people may appear after that of the others, or end before it.
+void SubscribedCrowd::selectTopic() {
+  if (!subscribe_full_) return;
+  const bool rounded = subscribers_.front().getNumPublishers() > 0;
+  if (rounded && subscribers_.size() > 1)
+    subscribers_.pop_back();
+  else if (!rounded && subscribers_.size() == 1)
+    subscribe_full_();
 }
 
 bool SubscribedCrowd::accepts(const AgentStates& message) {
@@ -29,12 +46,24 @@ void SubscribedCrowd::apply(const AgentStates& message) {
     people.reserve(message.agents.size());
     for (const AgentState& agent : message.agents)
       people.push_back({fromMsg(agent), agent.pose.position.z});
-    people_ = std::move(people);
-    stamp_ = fromMsg(message.header.stamp);
-    frame_ = message.header.frame_id;
-    ++changes_;
+    replace(std::move(people), message.header);
     return {true, std::to_string(people_.size()) + " people"};
   });
+}
+
+void SubscribedCrowd::apply(const CrowdView& message) {
+  receive("agents/view", status_, [&]() -> InputStatus {
+    requireFrame(message.header.frame_id);
+    replace(fromMsg(message), message.header);
+    return {true, std::to_string(people_.size()) + " people"};
+  });
+}
+
+void SubscribedCrowd::replace(std::vector<Person> people, const std_msgs::Header& header) {
+  people_ = std::move(people);
+  stamp_ = fromMsg(header.stamp);
+  frame_ = header.frame_id;
+  ++changes_;
 }
 
 void SubscribedCrowd::forgetLater(Nanoseconds now) {

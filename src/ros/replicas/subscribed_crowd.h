@@ -3,10 +3,13 @@
 #pragma once
 
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdView.h>
 
+#include <functional>
+#include <string>
 #include <vector>
 
-#include "crowd/body/walker.h"
+#include "ros/conversions/crowd_conversions.h"
 #include "ros/replicas/subscribed_replica.h"
 
 namespace vegetation_sim {
@@ -14,18 +17,21 @@ namespace vegetation_sim {
 /// The people of another node.
 class SubscribedCrowd : public SubscribedReplica<AgentStates> {
  public:
-  struct Person {
-    crowd::Walker walker;
-    double ground{0.0};  ///< height at which the person stands [m]
-  };
+  using Person = WalkerView;
 
   explicit SubscribedCrowd(const ReplicaOptions& options = {}) : SubscribedReplica(options) {}
   ~SubscribedCrowd() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
+  /// For displays: subscribes to the rounded people on `topic`/view. selectTopic() adds `topic`
+  /// itself while only that one has a publisher, as of a recording without the other.
+  /// @throws ros::InvalidNameException
+  void subscribeView(ros::NodeHandle handle, const std::string& topic);
+  void selectTopic();
   void apply(const AgentStates& message) override;
   bool accepts(const AgentStates& message) override;
+  void apply(const CrowdView& message);
   /// Time jumped back to `now`: people of a later stamp are removed.
   void forgetLater(Nanoseconds now);
   /// Removes all people if the newest message is older than SILENCE.
@@ -44,7 +50,9 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
  private:
   void clear(const char* why);
+  void replace(std::vector<Person> people, const std_msgs::Header& header);
 
+  std::function<void()> subscribe_full_;  // to the topic without /view; null without a view
   std::vector<Person> people_;
   Nanoseconds stamp_{0};
   int changes_{0}, seen_changes_{0};

@@ -24,7 +24,7 @@ CrowdDisplay::~CrowdDisplay() {
 void CrowdDisplay::open() {
   terrain_source_ = std::make_unique<view::GroundSource>(update_nh_);
   source_ = std::make_unique<SubscribedCrowd>();
-  source_->subscribe(update_nh_, properties_->topic());
+  source_->subscribeView(update_nh_, properties_->topic());
   people_ = std::make_unique<view::CrowdVisual>(*scene_node_);
 }
 
@@ -50,6 +50,7 @@ void CrowdDisplay::light(const view::Daylight& daylight, const view::Haze& haze)
 }
 
 void CrowdDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  source_->selectTopic();
   source_->forgetUnchanged(stamp);
   people_->update(*source_, terrain_source_->ground(), view, properties_->options());
   if (!source_->people().empty() && givesGround(terrain_source_->ground())) makeGround();

@@ -9,8 +9,10 @@
 namespace vegetation_sim::view {
 
 CrowdProperties::CrowdProperties(rviz::Display& display) {
-  topic_ =
-      addTopic<AgentStates>("Topic", "agents", "vegetation_sim/AgentStates: all walkers.", display);
+  topic_ = addTopic<AgentStates>("Topic", "agents",
+                                 "vegetation_sim/AgentStates: all walkers. If Topic/view has a "
+                                 "publisher, the display reads the smaller CrowdView from there.",
+                                 display);
   most_people_ =
       new rviz::IntProperty("Most People", 500, "Number of people that are drawn, nearest first.",
                             &display, SLOT(updateLook()), &display);

@@ -83,10 +83,17 @@ std::vector<std::string> windSeeds() {
 
 // People.
 
+enum AgentPiece { FULL, ROUNDED, AGENT_PIECES };
+
 void runAgents(std::string_view input) {
   SubscribedCrowd crowd;
-  for (const Piece& piece : splitPieces(input))
-    if (AgentStates message; decode(piece.bytes, message)) crowd.apply(message);
+  for (const Piece& piece : splitPieces(input)) {
+    if (piece.kind == ROUNDED) {
+      if (CrowdView message; decode(piece.bytes, message)) crowd.apply(message);
+    } else if (AgentStates message; decode(piece.bytes, message)) {
+      crowd.apply(message);
+    }
+  }
   const terrain::HeightMap ground;
   std::vector<scan::People::Person> people;
   for (const SubscribedCrowd::Person& person : crowd.people()) {
@@ -108,14 +115,17 @@ std::vector<std::string> agentSeeds() {
   AgentStates message;
   message.header.stamp = toStamp(START);
   const terrain::HeightMap ground;
+  std::vector<crowd::Walker> walkers;
   for (std::uint32_t id = 0; id < 3; ++id) {
     crowd::Walker walker;
     walker.id = id;
     walker.position = {1.0 * id, 2.0};
     walker.velocity = {1.0, 0.5};
     message.agents.push_back(toMsg(walker, ground));
+    walkers.push_back(walker);
   }
-  return {pieceOf(0, encode(message)), pieceOf(0, encode(message)) + pieceOf(0, encode(message))};
+  const std::string full = pieceOf(FULL, encode(message));
+  return {full, full + full, pieceOf(ROUNDED, encode(toView(walkers, ground)))};
 }
 
 // Inputs of nodes that need no state: viewers, sensors, treads, spawns, robots, grabs, covers, and
@@ -260,7 +270,7 @@ std::vector<std::string> inputSeeds() {
 
 std::vector<Target> worldMessageTargets() {
   return {{"wind", "WindField, WindPrimitive and edits of a field; samples", runWind, windSeeds},
-          {"agents", "AgentStates; bodies and a sweep", runAgents, agentSeeds},
+          {"agents", "AgentStates, CrowdView; bodies and a sweep", runAgents, agentSeeds},
           {"inputs",
            "Viewer, SensorInterest, TreadEvent, AgentSpawn, CrowdRobot, OccupancyGrid, requests to "
            "cut, and the parts of ForestEvent",

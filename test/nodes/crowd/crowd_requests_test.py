@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests S2-30, S2-36 and the requirements of part 4 for the crowd through the interface of the
 node."""
+import math
 import unittest
 
 import rospy
@@ -11,11 +12,12 @@ from geometry_msgs.msg import PointStamped
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
-from vegetation_sim.msg import AgentSpawn, CrowdEvent, TreadEvent
+from vegetation_sim.msg import AgentSpawn, CrowdEvent, CrowdView, TreadEvent
 
 from crowd_rig import Cart, Crowd, at, distance
 from forest_rig import TickClock, time_of
 from given import given
+from waiting import wait_for
 from watched_node import Log
 
 START = 3000  # tick
@@ -48,11 +50,32 @@ class CrowdRequests(unittest.TestCase):
             for b in after.values():
                 if a.id < b.id:
                     self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
+        self.expect_view()
         prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
         self.assertGreater(len(prints), 16)
         self.assertTrue(all(t.source.startswith('hall/walker_') for t in prints))
         for t in prints:  # A footprint extends from heel to ball.
             self.assertTrue(0.15 < distance(t.start, t.position) < 0.3)
+
+    def expect_view(self):
+        """The view has the same walkers at the same ticks within 0.5 mm and 48 urad, to a late
+        subscriber as well: each message is complete."""
+        late = Log('/agents/view', CrowdView)
+        wait_for(late.connected, 'the view')
+        self.clock.run(3, self.crowd)
+        late.wait_for_stamp(time_of(self.clock.tick))
+        full = {m.header.stamp: m for m in self.crowd.state.messages}
+        for view in late.messages:
+            agents = full[view.header.stamp].agents
+            ids = [i for first, count in zip(view.first_id, view.id_count)
+                   for i in range(first, first + count)]
+            self.assertEqual(ids, [a.id for a in agents])
+            for k, agent in enumerate(agents):
+                place = at(view.origin_x + 1e-3 * view.x[k], view.origin_y + 1e-3 * view.y[k])
+                self.assertLess(distance(place, agent.pose.position), 0.00071)  # the diagonal
+                q = agent.pose.orientation
+                turn = 2.0 * math.pi / 65536 * view.heading[k] - 2.0 * math.atan2(q.z, q.w)
+                self.assertLess(abs(math.remainder(turn, 2.0 * math.pi)), 48e-6)
 
     def test_2_spawns_sends_and_removes(self):
         answer = self.crowd.spawn(like=AgentSpawn(position=at(5, 6), stands=True), count=2, spread=0.5)

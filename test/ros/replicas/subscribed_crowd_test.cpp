@@ -62,5 +62,30 @@ TEST(SubscribedCrowd, ForgetsUnchangedPeopleWhateverTheirStamps) {
   EXPECT_FALSE(crowd.status().good);
 }
 
+TEST(SubscribedCrowd, ReadsRoundedPeopleLikeTheOthersAndKeepsThemIfAMessageIsInvalid) {
+  crowd::Walker walker;
+  walker.id = 5;
+  walker.position = {3.0, -4.0};
+  CrowdView message = toView({walker}, terrain::HeightMap());
+  message.header.stamp = toStamp(NANOSECONDS_PER_SECOND);
+  message.header.frame_id = "map";
+  SubscribedCrowd crowd;
+  crowd.apply(message);
+  ASSERT_EQ(crowd.people().size(), 1u);
+  EXPECT_EQ(crowd.people()[0].walker.id, 5u);
+  EXPECT_NEAR(crowd.people()[0].walker.position.y, -4.0, 1e-9);
+  EXPECT_EQ(crowd.stamp(), NANOSECONDS_PER_SECOND);
+  EXPECT_EQ(crowd.frame(), "map");
+  message.heading.clear();
+  crowd.apply(message);
+  EXPECT_FALSE(crowd.status().good);
+  EXPECT_EQ(crowd.people().size(), 1u);
+  EXPECT_EQ(crowd.changes(), 1);
+  message = toView({}, terrain::HeightMap());
+  crowd.apply(message);
+  EXPECT_TRUE(crowd.people().empty());
+  EXPECT_TRUE(crowd.status().good);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

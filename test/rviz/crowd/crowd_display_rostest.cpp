@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdView.h>
 #include <vegetation_sim/ForestLayout.h>
 
 #include <limits>
@@ -58,6 +59,13 @@ class CrowdRig : public ViewRig {
     publish(message());
   }
   void publish(const AgentStates& message) { agents_.publish(message); }
+  CrowdView view() const {
+    CrowdView out = toView(crowd_->walkers(), crowd_->terrain());
+    out.header = message().header;
+    return out;
+  }
+  /// Number of displays that read the full people.
+  std::uint32_t readers() const { return agents_.getNumSubscribers(); }
 
  private:
   ros::Publisher agents_;
@@ -109,6 +117,32 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
   const std::vector<std::uint8_t> before = rig.picture();
   rig.walk(1.0);
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
+}
+
+// A display reads the full people only while nobody publishes the rounded ones; both look alike.
+TEST_F(CrowdDisplayTest, ReadsRoundedPeopleWhereTheyArePublished) {
+  rig.report();
+  rig.frames(10);
+  EXPECT_EQ(rig.readers(), 1u);
+  const std::vector<std::uint8_t> full = rig.picture();
+  ros::Publisher rounded = rig.nodeHandle().advertise<CrowdView>("agents/view", 10);
+  EXPECT_TRUE(rig.until([&] { return rig.readers() == 0; }));
+  const int built = display->drawn().rebuilds;
+  rounded.publish(rig.view());
+  EXPECT_TRUE(rig.until([&] { return display->drawn().rebuilds > built; }));
+  EXPECT_LT(difference(full, rig.picture()), 0.1);
+  rig.gather(5);
+  rounded.publish(rig.view());
+  EXPECT_TRUE(rig.until([&] { return display->drawn().people == 5; }));
+  CrowdView bad = rig.view();
+  bad.gait.pop_back();
+  rounded.publish(bad);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*display, "People").find("gait has 4 numbers") != std::string::npos;
+  }));
+  EXPECT_EQ(display->drawn().people, 5u);
+  rounded.shutdown();
+  EXPECT_TRUE(rig.until([&] { return rig.readers() == 1; }));
 }
 
 // This applies S2-15 to people: distant people are drawn with fewer triangles.
