@@ -194,16 +194,19 @@ class Charts(unittest.TestCase):
             self.assert_drawn(name)
 
     def test_charts_tell_their_commit_and_machine(self):
-        space = self.bench('grass_tile_bench', 'printf "%s" > $FILE' % LADDER.replace('\n', '\\n'))
-        for tier in range(6):
-            self.bench_line('grass_tile_bench', 'arc', tier)
-        done = run(PROGRAM, '--only', 'grass_ladder', '--out', self.out, **space)
+        space = self.bench('influence_bench', 'printf "%s" > $FILE' % (LADDER.replace('\n', '\\n')))
+        for depth in '12':
+            for tier in range(4):
+                self.bench_line('influence_bench', 'influence %s' % depth, tier)
+            self.bench_line('influence_bench', 'depth %s' % depth, 4)
+            self.bench_line('influence_bench', 'all %s' % depth, 5)
+        done = run(PROGRAM, '--only', 'influence_ladder', '--out', self.out, **space)
         self.assertEqual(done.returncode, 0, done.stderr)
-        written = stamp.read_all(self.out)['grass_ladder']
+        written = stamp.read_all(self.out)['influence_ladder']
         self.assertEqual(written['extent'], 'usual')
         self.assertEqual(written['sources'], stamp.hash_of(
-            registry.all_charts()['grass_ladder'].sources, ROOT))
-        self.assertIn(stamp.text_of(written), (self.out / 'grass_ladder.svg').read_text())
+            registry.all_charts()['influence_ladder'].sources, ROOT))
+        self.assertIn(stamp.text_of(written), (self.out / 'influence_ladder.svg').read_text())
 
     def test_comments_and_spaces_do_not_age_a_chart_but_code_does(self):
         folder, file = self.folder / 'src/grass', self.folder / 'src/grass/blade.cpp'

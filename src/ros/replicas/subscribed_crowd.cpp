@@ -18,6 +18,7 @@ void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& t
     apply(message);
   };
   subscribers_.push_back(handle.subscribe<CrowdView>(topic + "/view", 10, callback));
+  subscribe_full_();
 }
 
 // The publisher of the rounded people may appear after that of the others, or end before it.

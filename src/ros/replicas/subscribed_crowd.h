@@ -24,8 +24,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
-  /// For displays: subscribes to the rounded people on `topic`/view. selectTopic() adds `topic`
-  /// itself while only that one has a publisher, as of a recording without the other.
+  /// For displays: subscribes to the rounded people on `topic`/view and to `topic` itself.
+  /// selectTopic() leaves the latter while the former has a publisher, unlike a recording without.
   /// @throws ros::InvalidNameException
   void subscribeView(ros::NodeHandle handle, const std::string& topic);
   void selectTopic();
