@@ -41,7 +41,8 @@ void draw(const SubscribedMeadow& meadow, Nanoseconds stamp) {
     grass::appendRibbons(lod.map(), tile, blocks.data(), count, grass::RibbonStyle(), mesh);
     grass::appendStrips(lod.map(), tile, motion, 1.0, 50.0, mesh);
   }
-  requireFinite(mesh.positions, "vertex of grass");
+  requireFinite(std::vector<float>(mesh.positions.begin(), mesh.positions.end()),
+                "vertex of grass");
 }
 
 void use(SubscribedMeadow& meadow) {
