@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures leafy masses: the cost of a fluid step by scheme and size with its error, oscillators,
 // layers, the cost of a tick over the number of leaves, layers against leaves that each move alone,
-// and two ways to give layers behind the first one its past.
-// usage: canopy_bench [ROUNDS] [--quick] [--part steps,errors,leaves,truth,delays] [--csv FILE]
+// two ways to give layers behind the first one its past, and pictures of layers against leaves.
+// usage: canopy_bench [ROUNDS] [--quick] [--part steps,errors,leaves,truth,delays,pictures] [--csv
+// FILE]
 
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "scenes/canopy/delay_scene.h"
 #include "scenes/canopy/leaf_truth.h"
 #include "scenes/canopy/plane_scene.h"
+#include "scenes/canopy/shrub_bank.h"
 #include "scenes/canopy/spectral_reference.h"
 #include "table.h"
 #include "vegetation_sim/canopy/canopy.h"
@@ -235,18 +237,48 @@ void benchDelays(const bench::Options& options, bench::Table& table) {
   }
 }
 
+// S3-27: compares pictures of layers, warped on grids, with every leaf in the same layers.
+void benchPictures(const bench::Options& options, bench::Table& table) {
+  std::printf("\npictures of layers against their leaves, at %.0f pixels per radian\n", PIXELS);
+  for (const int layers : {1, 3, 5, 9}) {
+    ShrubBank bank(layers);
+    bank.blow(Vec3(0.0, 8.0, 0.0), 200);
+    bank.makeGrids();
+    for (const double shift : {0.0, 0.3, 1.0}) {
+      const Vec3 eye = ShrubBank::eye() + Vec3(0.0, shift, 0.0);
+      const std::vector<double> errors = bank.errors(eye);
+      const double most = errors[errors.size() * 99 / 100];
+      std::printf("%d layers, eye moved by %.1f m: rms %.3f, 99 %% %.3f, predicted %.3f pixels\n",
+                  layers, shift, bank.rms(eye), most, bank.predicted(eye));
+      char name[32];
+      std::snprintf(name, sizeof name, "pictures, %.1f m", shift);
+      table.row(name, layers, bank.rms(eye), most);
+      std::snprintf(name, sizeof name, "predicted, %.1f m", shift);
+      table.row(name, layers, bank.predicted(eye), 0.0);
+    }
+    std::vector<Candidate> candidates{{"grids", [&bank] { bank.moveGrids(); }},
+                                      {"leaves", [&bank] { bank.moveLeaves(); }}};
+    bench::timeOnProcessor(candidates, options.rounds);
+    std::printf("%d layers: grids %.2f ms, %zu leaves %.2f ms\n", layers,
+                1e3 * candidates[0].seconds, bank.leafCount(), 1e3 * candidates[1].seconds);
+    table.row("cost, grids", layers, 1e3 * candidates[0].seconds, 0.0);
+    table.row("cost, leaves", layers, 1e3 * candidates[1].seconds, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::canopy
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
   const bench::Options options =
-      bench::readOptions(argc, argv, {"steps", "errors", "leaves", "truth", "delays"});
+      bench::readOptions(argc, argv, {"steps", "errors", "leaves", "truth", "delays", "pictures"});
   bench::Table table(options.csv, "what,size,value,ratio");
   if (options.wants("steps")) canopy::benchSteps(options, table);
   if (options.wants("errors")) canopy::benchErrors(options, table);
   if (options.wants("leaves")) canopy::benchLeaves(options, table);
   if (options.wants("truth")) canopy::benchTruth(options, table);
   if (options.wants("delays")) canopy::benchDelays(options, table);
+  if (options.wants("pictures")) canopy::benchPictures(options, table);
   return 0;
 }

@@ -60,10 +60,20 @@ void checkSizes(const Layout& layout, Faults& faults) {
   most("kinds", layout.kinds.size(), MOST_KINDS);
   most("plants", layout.plants.size(), MOST_PLANTS);
   if (!faults.empty()) return;
-  most("leaves", layout.leafCount(), MOST_LEAVES);
+  most("leaves", layout.ownLeafCount(), MOST_LEAVES);
+  most("leaves of all plants", layout.leafCount(), MOST_SHOWN_LEAVES);
   const auto cells = static_cast<std::size_t>(layout.motion.fluid.cells);
   most("bytes of history (memory * rate * cells^2 * 4)",
        static_cast<std::size_t>(historyFrames(layout.motion)) * cells * cells * 4, MOST_HISTORY);
+}
+
+std::size_t crownLeaves(const Layout& layout) {
+  std::size_t out = 0;
+  for (const CrownRule& crown : layout.crowns)
+    if (crown.kind < layout.kinds.size())
+      out += static_cast<std::size_t>(std::max(0, crown.trees)) *
+             static_cast<std::size_t>(std::max(0, layout.kinds[crown.kind].leaves));
+  return out;
 }
 
 }  // namespace
@@ -98,13 +108,21 @@ int historyFrames(const Motion& motion) {
 }
 
 std::size_t Layout::leafCount() const {
-  std::size_t out = 0;
-  for (const CrownRule& crown : crowns)
-    if (crown.kind < kinds.size())
-      out += static_cast<std::size_t>(std::max(0, crown.trees)) *
-             static_cast<std::size_t>(std::max(0, kinds[crown.kind].leaves));
+  std::size_t out = crownLeaves(*this);
   for (const Plant& plant : plants)
     if (plant.kind < kinds.size()) out += canopy::leafCount(kinds[plant.kind]);
+  return out;
+}
+
+std::size_t Layout::ownLeafCount() const {
+  std::size_t out = crownLeaves(*this);
+  std::vector<bool> counted(kinds.size(), false);
+  for (const Plant& plant : plants) {
+    if (plant.kind >= kinds.size()) continue;
+    if (!isRead(kinds[plant.kind]) || !counted[plant.kind])
+      out += canopy::leafCount(kinds[plant.kind]);
+    counted[plant.kind] = true;
+  }
   return out;
 }
 

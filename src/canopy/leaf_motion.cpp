@@ -52,6 +52,7 @@ Foliage::Foliage(const Layout& layout) : layout_(layout), plane_(layout.motion.p
 void Foliage::update(const History& history, double front_share, const CutState& cuts,
                      Nanoseconds stamp) {
   share_ = cutShare(cuts, layout_.motion.cuts, stamp);
+  cut_since_ = cuts.since;
   build(cuts_[0], cuts.now, history, front_share);
   if (share_ < 1.0) build(cuts_[1], cuts.before, history, front_share);
 }
@@ -131,14 +132,6 @@ std::vector<float> Foliage::sheet(int layer) const {
   return out;
 }
 
-std::vector<std::uint32_t> Foliage::backToFront(const std::vector<Leaf>& leaves) const {
-  std::vector<std::uint32_t> out;
-  for (int layer = layers() - 1; layer >= 0; --layer)
-    for (std::size_t i = 0; i < leaves.size(); ++i)
-      if (layerAt(leaves[i].anchor) == layer) out.push_back(static_cast<std::uint32_t>(i));
-  return out;
-}
-
 Vec3 Foliage::motion(const Vec3& anchor, const Vec3& point) const {
   return motionIn(cuts_[0], anchor, point);
 }
@@ -160,12 +153,16 @@ Vec3 Foliage::displacement(const Vec3& anchor, const Vec3& point, std::size_t pl
   return turnAt(bent->second, anchor).of(point + out) - point;
 }
 
-Vec3 Foliage::sway(const Vec3& anchor, const Vec3& point, std::size_t plant) const {
+Freedom Foliage::freedomOf(const Vec3& point, std::size_t plant) const {
   const double top = tops_[plant], rigidity = layout_.motion.warp.rigidity;
   const double height = point.z() - layout_.plants[plant].position.z();
-  const double freedom = mobility(height, top, rigidity);
-  if (!(freedom > 0.0)) return Vec3::Zero();
-  Vec3 out = freedom * freeDisplacement(anchor, point, FARTHEST * top / std::max(1.0, rigidity));
+  return {mobility(height, top, rigidity), FARTHEST * top / std::max(1.0, rigidity)};
+}
+
+Vec3 Foliage::sway(const Vec3& anchor, const Vec3& point, std::size_t plant) const {
+  const Freedom freedom = freedomOf(point, plant);
+  if (!(freedom.share > 0.0)) return Vec3::Zero();
+  Vec3 out = freedom.share * freeDisplacement(anchor, point, freedom.limit);
   if (layout_.motion.warp.method == WarpMethod::WARP) return out;
   return bent(Vec3(point - layout_.plants[plant].position), out);
 }

@@ -77,6 +77,35 @@ TEST(Layout, IsRejectedWithAllItsFaults) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+// S3-28: plants of a mesh share its faces, so that 50 million can be shown.
+TEST(Layout, CountsTheFacesOfAMeshOnce) {
+  Layout layout;
+  layout.kinds.resize(2);
+  layout.kinds[0].leaves = 1000;
+  layout.kinds[1].shape = PlantShape::MESH;
+  layout.kinds[1].file = "bush.obj";
+  auto form = std::make_shared<Form>();
+  form->leaves.resize(80000);
+  layout.kinds[1].form = form;
+  layout.plants.resize(3);
+  for (int i = 0; i < 625; ++i) {
+    layout.plants.emplace_back();
+    layout.plants.back().kind = 1;
+  }
+  EXPECT_EQ(layout.leafCount(), 3u * 1000 + 625u * 80000);
+  EXPECT_EQ(layout.ownLeafCount(), 3u * 1000 + 80000);
+  const auto faultsOf = [&] {
+    Faults faults;
+    check(layout, faults);
+    return faults.text();
+  };
+  EXPECT_EQ(faultsOf(), "");
+  layout.plants.insert(layout.plants.end(), 700, layout.plants.back());
+  EXPECT_NE(faultsOf().find("106003000 leaves of all plants, more than the 100000000 allowed"),
+            std::string::npos)
+      << faultsOf();
+}
+
 TEST(Layout, IsRejectedAsAWhole) {
   EXPECT_NE(errorOf([] { read("canopy: {fluid: {cells: 48}}"); }).find("no power of two"),
             std::string::npos);

@@ -317,24 +317,5 @@ TEST(Foliage, IsAvailableAsTexturesForShaders) {
   }
 }
 
-// S3-07: leaves with transparent edges are laid from the last layer to the first; each once.
-TEST(Foliage, IsLaidFromBackToFront) {
-  const Layout layout = shrubScene();
-  Canopy canopy(layout);
-  run(canopy, 0, 2);
-  const Foliage& foliage = canopy.foliage();
-  std::vector<Leaf> leaves;
-  for (const Plant& plant : layout.plants)
-    for (const Leaf& leaf : grow(layout.kinds[0], plant).leaves) leaves.push_back(leaf);
-  std::vector<std::uint32_t> order = foliage.backToFront(leaves);
-  ASSERT_EQ(order.size(), leaves.size());
-  EXPECT_GT(foliage.layerAt(leaves[order.front()].anchor), 0);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    EXPECT_LE(foliage.layerAt(leaves[order[i]].anchor),
-              foliage.layerAt(leaves[order[i - 1]].anchor));
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
-}
-
 }  // namespace
 }  // namespace vegetation_sim::canopy

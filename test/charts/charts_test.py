@@ -193,6 +193,20 @@ class Charts(unittest.TestCase):
         for name in names:
             self.assert_drawn(name)
 
+    # A documented chart is of the sources as they are now, and says of which commit and machine.
+    def test_documented_charts_are_of_the_present_sources(self):
+        folder = ROOT / 'docs/charts'
+        stamps = stamp.read_all(folder)
+        for name in sorted(table.stem for table in folder.glob('*.csv')):
+            with self.subTest(name):
+                self.assertIn(name, stamps, 'the chart has no stamp; measure it with --only')
+                sources = registry.all_charts()[name].sources
+                self.assertEqual(stamps[name]['sources'], stamp.hash_of(sources, ROOT),
+                                 '%s have changed since the chart was measured: run charts --only '
+                                 '%s --out docs/charts' % (', '.join(sources), name))
+                self.assertRegex(stamps[name]['commit'], '^[0-9a-f]{7,40}$')
+                self.assertIn('cores', stamps[name]['machine'])
+
     def test_charts_tell_their_commit_and_machine(self):
         space = self.bench('influence_bench', 'printf "%s" > $FILE' % (LADDER.replace('\n', '\\n')))
         for depth in '12':

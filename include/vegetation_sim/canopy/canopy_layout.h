@@ -57,6 +57,9 @@ struct Layout {
   std::uint64_t seed{0};  ///< seed of turbulence and of the layers' delays
 
   std::size_t leafCount() const;
+  /// Returns the number of leaves that differ: plants of a kind that is read from a file share
+  /// theirs.
+  std::size_t ownLeafCount() const;
   std::uint64_t hash() const;
 };
 

@@ -30,6 +30,12 @@ struct LeafBox {
   Vec3 low{Vec3::Zero()}, high{Vec3::Zero()};  ///< [m], world
 };
 
+/// How freely a point of a plant moves.
+struct Freedom {
+  double share{0.0};  ///< R of equation 7, 0 to 1
+  double limit{0.0};  ///< limit of its displacement for a share of 1 [m]
+};
+
 /// Position of a leaf that has moved.
 struct MovedLeaf {
   Vec3 root, tip, side;  ///< [m], world
@@ -72,6 +78,8 @@ class Foliage {
   /// layer, and with the fibre on which the anchor is. @param plant id, whose foot and height
   /// determine how freely it moves.
   Vec3 displacement(const Vec3& anchor, const Vec3& point, std::size_t plant) const;
+  /// Returns how freely a point at rest moves, from the foot and the height of its plant.
+  Freedom freedomOf(const Vec3& point, std::size_t plant) const;
   /// Returns the same for a leaf that is on no plant of the layout, limited to about `limit` [m].
   Vec3 freeDisplacement(const Vec3& anchor, const Vec3& point, double limit) const;
   MovedLeaf move(const Leaf& leaf, std::size_t plant) const;
@@ -82,11 +90,11 @@ class Foliage {
   /// (S3-W7): [cells x cells x 3] right, up, towards the viewer, row after row from the lowest
   /// [m/s].
   std::vector<float> sheet(int layer) const;
-  /// Returns the indices of the leaves from the last layer to the first, the order in which leaves
-  /// with transparent edges are blended (S3-07).
-  std::vector<std::uint32_t> backToFront(const std::vector<Leaf>& leaves) const;
   int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
   int layers() const { return cuts_[0].cut.layers(); }
+  const LayerCut& layerCut() const { return cuts_[0].cut; }
+  /// Returns the stamp at which the layers were cut.
+  Nanoseconds cutSince() const { return cut_since_; }
   const WarpSettings& warp() const { return layout_.motion.warp; }
 
  private:
@@ -120,6 +128,7 @@ class Foliage {
   std::vector<LeafBox> crowns_;
   std::array<Cut, 2> cuts_;  // cuts, the newer one first
   double share_{1.0};        // share of the newer one
+  Nanoseconds cut_since_{0};
   std::map<std::size_t, BentPlant> bent_;
   const Stubble* stubble_{nullptr};
 };

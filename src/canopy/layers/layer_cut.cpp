@@ -3,6 +3,7 @@
 #include "vegetation_sim/canopy/layers/layer_cut.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "vegetation_sim/core/math/math.h"
 
@@ -67,6 +68,12 @@ LayerCut::LayerCut(const CutView& view, const CutSettings& settings, double near
 int LayerCut::layerAt(const Vec3& root) const {
   const double depth = depthOf(root);
   return static_cast<int>(std::upper_bound(ends_.begin(), ends_.end(), depth) - ends_.begin());
+}
+
+std::array<double, 2> LayerCut::depthsOf(int layer) const {
+  constexpr double ENDLESS = std::numeric_limits<double>::infinity();
+  const auto i = static_cast<std::size_t>(layer);
+  return {i == 0 ? -ENDLESS : ends_[i - 1], i < ends_.size() ? ends_[i] : ENDLESS};
 }
 
 bool LayerCut::leftBy(const CutView& view, const CutSettings& settings) const {

@@ -123,7 +123,8 @@ InputStatus CanopyDisplay::describeDrawn() const {
   return {report.leaves > 0, std::to_string(report.drawn) + " of " + std::to_string(report.leaves) +
                                  " leaves of " + std::to_string(report.plants) + " plants and " +
                                  std::to_string(report.crowns) + " crowns, in " +
-                                 std::to_string(report.layers) + " layers"};
+                                 std::to_string(report.layers) + " layers, " +
+                                 std::to_string(report.pictures) + " of them as pictures"};
 }
 
 }  // namespace vegetation_sim

@@ -8,6 +8,7 @@
 #include "rviz/render/texture.h"
 #include "rviz/textures/foliage_texture.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -55,56 +56,70 @@ void setColour(const Vec3& rgb, double sun, VertexPaint& paint) {
   paint.colour[3] = static_cast<std::uint8_t>(255.0 * std::clamp(sun, 0.0, 1.0));
 }
 
+// Returns two triangles for each leaf of four corners.
+std::vector<std::uint32_t> leafTriangles(std::size_t leaves) {
+  std::vector<std::uint32_t> out;
+  out.reserve(6 * leaves);
+  for (std::size_t i = 0; i < leaves; ++i) {
+    const auto first = static_cast<std::uint32_t>(4 * i);
+    out.insert(out.end(), {first, first + 1, first + 3, first, first + 3, first + 2});
+  }
+  return out;
+}
+
+// Puts items into a random order, the same for the same number of items.
+template <class Item>
+void shuffle(std::vector<Item>& items) {
+  const Random random(items.size());
+  for (std::size_t i = items.size(); i > 1; --i)
+    std::swap(items[i - 1],
+              items[static_cast<std::size_t>(random.uniform(i) * static_cast<double>(i))]);
+}
+
 void setNormal(const Vec3& normal, VertexPaint& paint) {
   for (int i = 0; i < 3; ++i) paint.normal[i] = static_cast<float>(normal[i]);
 }
 
 }  // namespace
 
-CanopyPatch::CanopyPatch(const canopy::Replica& canopy, const std::vector<std::size_t>& plants,
-                         const Vec3& origin, Ogre::SceneNode& node,
-                         const std::string& leaf_material, const std::string& stem_material,
-                         const Vec3& to_sun)
-    : plants_(plants),
-      origin_(origin),
-      leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
-      stem_batch_(uniqueName("canopy_stems"), stem_material) {
-  const canopy::Layout& layout = canopy.layout();
-  for (const std::size_t plant : plants)
-    middle_ += layout.plants[plant].position / static_cast<double>(plants.size());
-  for (const std::size_t plant : plants) {
-    heights_.push_back(canopy.cutHeight(plant));
-    grow(layout, plant, heights_.back());
-  }
-  finish(layout, node, to_sun);
+CanopyPatch::CanopyPatch(const canopy::Layout& layout, std::vector<std::size_t> plants,
+                         std::vector<double> heights, const PatchScene& scene)
+    : plants_(std::move(plants)),
+      heights_(std::move(heights)),
+      origin_(scene.origin),
+      leaf_batch_(uniqueName("canopy_leaves"), scene.leaf_material),
+      stem_batch_(uniqueName("canopy_stems"), scene.stem_material) {
+  for (const std::size_t plant : plants_)
+    middle_ += layout.plants[plant].position / static_cast<double>(plants_.size());
+  for (std::size_t i = 0; i < plants_.size(); ++i) grow(layout, plants_[i], heights_[i]);
+  finish(layout, scene);
 }
 
 CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown,
-                         std::size_t number, const Vec3& origin, Ogre::SceneNode& node,
-                         const std::string& leaf_material, const std::string& stem_material,
-                         const Vec3& to_sun)
+                         std::size_t number, const PatchScene& scene)
     : crown_(number),
-      origin_(origin),
+      origin_(scene.origin),
       middle_(0.5 * (crown.box.low + crown.box.high)),
       reach_(0.5 * length(Vec3(crown.box.high - crown.box.low))),
-      leaf_batch_(uniqueName("canopy_leaves"), leaf_material),
-      stem_batch_(uniqueName("canopy_stems"), stem_material) {
+      leaf_batch_(uniqueName("canopy_leaves"), scene.leaf_material),
+      stem_batch_(uniqueName("canopy_stems"), scene.stem_material) {
   const Vec3 half = (0.5 * (crown.box.high - crown.box.low)).cwiseMax(0.01);
   const std::size_t count = crown.leaves.size();
   for (std::size_t i = 0; i < count; ++i) {
     const canopy::Leaf& leaf = crown.leaves[i].leaf;
     const Vec3 at = (leaf.root - middle_).cwiseQuotient(half);
-    leaves_.push_back({leaf, i, crown.kind, at, LeafCut::LEAF, static_cast<float>(-length(at))});
+    leaves_.push_back(
+        {leaf, i, crown.kind, at, LeafCut::LEAF, Share::OTHERS, static_cast<float>(-length(at))});
   }
-  finish(layout, node, to_sun);
+  finish(layout, scene);
 }
 
-void CanopyPatch::finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun) {
+void CanopyPatch::finish(const canopy::Layout& layout, const PatchScene& scene) {
   std::stable_sort(leaves_.begin(), leaves_.end(),
                    [](const Drawn& a, const Drawn& b) { return a.order < b.order; });
-  build(layout, to_sun);
-  node.attachObject(&leaf_batch_);
-  node.attachObject(&stem_batch_);
+  build(layout, scene.to_sun);
+  scene.node->attachObject(&leaf_batch_);
+  scene.node->attachObject(&stem_batch_);
 }
 
 bool CanopyPatch::isOutdated(const canopy::Replica& canopy) const {
@@ -125,6 +140,7 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   const canopy::PlantKind& kind = layout.kinds[p.kind];
   const canopy::GrownPlant grown = canopy::grow(kind, p, height);
   const std::size_t count = grown.leaves.size();
+  const Share share = isRead(kind) && !(height < canopy::UNCUT) ? Share::ALIKE : Share::OTHERS;
   std::vector<std::pair<double, std::size_t>> sorted;
   for (std::size_t i = 0; i < count; ++i)
     sorted.emplace_back(joins(cutOf(kind, grown.leaves[i]))
@@ -135,7 +151,7 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   for (std::size_t rank = 0; rank < count; ++rank) {
     const canopy::Leaf& leaf = grown.leaves[sorted[rank].second];
     leaves_.push_back({leaf, plant, p.kind, inBall(layout, plant, leaf.root), cutOf(kind, leaf),
-                       static_cast<float>(rank) / static_cast<float>(count)});
+                       share, static_cast<float>(rank) / static_cast<float>(count)});
   }
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind.stem_colour);
@@ -221,37 +237,108 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
 }
 
 void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
-  std::vector<VertexPaint> paint;
-  std::vector<std::uint32_t> triangles;
+  std::vector<VertexPaint>& paint = leaf_paint_;
+  paint.clear();
   paint.reserve(4 * leaves_.size());
-  triangles.reserve(6 * leaves_.size());
-  positions_.clear();
   double size = 0.0;
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    const Drawn& drawn = leaves_[i];
+  for (const Drawn& drawn : leaves_) {
     const canopy::Leaf& leaf = drawn.leaf;
     const VertexPaint own = paintOf(layout, drawn, to_sun);
-    const auto first = static_cast<std::uint32_t>(4 * i);
     for (int corner = 0; corner < 4; ++corner) {
-      const Vec3 at = (corner < 2 ? leaf.root : leaf.tip) - origin_;
-      for (int k = 0; k < 3; ++k) positions_.push_back(static_cast<float>(at[k]));
       const std::array<float, 2> place =
           foliagePlace(drawn.cut, corner % 2 == 0 ? 0.f : 1.f, corner < 2 ? 0.f : 1.f);
       paint.push_back(own);
       paint.back().place[0] = place[0];
       paint.back().place[1] = place[1];
     }
-    triangles.insert(triangles.end(), {first, first + 1, first + 3, first, first + 3, first + 2});
     size += length(leaf.tip - leaf.root);
   }
   if (!leaves_.empty()) leaf_size_ = size / static_cast<double>(leaves_.size());
-  leaf_batch_.build(positions_, paint, triangles,
+  std::vector<const Drawn*> leaves;
+  for (const Drawn& drawn : leaves_) leaves.push_back(&drawn);
+  positions_ = placeAtRest(leaves);
+  leaf_batch_.build(positions_, paint, leafTriangles(leaves_.size()),
                     static_cast<float>(MARGIN + leaf_size_ + tallest_));
   stem_batch_.build(stem_positions_, stem_paint_, stem_triangles_, static_cast<float>(tallest_));
 }
 
-void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count) {
-  moveBy([&](const Drawn& drawn) { return foliage.move(drawn.leaf, drawn.owner); }, count);
+// Returns the corners of leaves [m].
+std::vector<float> CanopyPatch::placeAtRest(const std::vector<const Drawn*>& leaves) const {
+  std::vector<float> out(12 * leaves.size());
+  float* at = out.data();
+  for (const Drawn* drawn : leaves)
+    at = placeCorners({drawn->leaf.root, drawn->leaf.tip, drawn->leaf.side}, *drawn, 1.0, at);
+  return out;
+}
+
+std::size_t CanopyPatch::leafCount(Share share) const {
+  return static_cast<std::size_t>(std::count_if(
+      leaves_.begin(), leaves_.end(), [&](const Drawn& drawn) { return drawn.share == share; }));
+}
+
+std::vector<std::size_t> CanopyPatch::alike() const {
+  std::vector<std::size_t> out;
+  for (const Drawn& drawn : leaves_)
+    if (drawn.share == Share::ALIKE) out.push_back(drawn.owner);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::unique_ptr<Batch> CanopyPatch::copyAtRest(Ogre::SceneNode& node, const std::string& material,
+                                               Share share) const {
+  std::vector<const Drawn*> leaves;
+  for (const Drawn& drawn : leaves_)
+    if (drawn.share == share) leaves.push_back(&drawn);
+  if (share == Share::ALIKE) shuffle(leaves);
+  std::vector<VertexPaint> paint;
+  std::vector<float> anchors;
+  paint.reserve(4 * leaves.size());
+  anchors.reserve(12 * leaves.size());
+  for (const Drawn* drawn : leaves) {
+    const auto first = leaf_paint_.begin() + 4 * (drawn - leaves_.data());
+    paint.insert(paint.end(), first, first + 4);
+    for (int corner = 0; corner < 4; ++corner)
+      for (int k = 0; k < 3; ++k)
+        anchors.push_back(static_cast<float>(drawn->leaf.anchor[k] - origin_[k]));
+  }
+  auto out = std::make_unique<Batch>(uniqueName("leaves_at_rest"), material);
+  out->build(placeAtRest(leaves), paint, leafTriangles(leaves.size()), 0.f);
+  out->setAnchors(anchors);
+  node.attachObject(out.get());
+  return out;
+}
+
+bool CanopyPatch::isBent(const canopy::Foliage& foliage) const {
+  return std::any_of(plants_.begin(), plants_.end(),
+                     [&](std::size_t plant) { return foliage.isBent(plant); });
+}
+
+bool CanopyPatch::isPictured(const canopy::Foliage& foliage,
+                             const std::vector<bool>& pictured) const {
+  if (pictured.empty()) return false;
+  const Vec3 reach = reach_ * foliage.layerCut().axes().out;
+  const auto from = pictured.begin() + foliage.layerAt(middle_ + reach);
+  const auto to = pictured.begin() + foliage.layerAt(middle_ - reach);
+  return std::find(from, to + 1, false) == to + 1;
+}
+
+void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count,
+                       const std::vector<bool>& pictured) {
+  const auto hasPicture = [&](const Drawn& drawn) {
+    return !pictured.empty() &&
+           pictured[static_cast<std::size_t>(foliage.layerAt(drawn.leaf.anchor))];
+  };
+  const Vec3 none = Vec3::Zero();
+  std::size_t skipped = 0;
+  moveBy(
+      [&](const Drawn& drawn) {
+        if (!hasPicture(drawn)) return foliage.move(drawn.leaf, drawn.owner);
+        ++skipped;
+        return canopy::MovedLeaf{none, none, none};
+      },
+      isPictured(foliage, pictured) ? 0 : count);
+  drawn_ -= skipped;
   bendStems(foliage);
 }
 
@@ -281,6 +368,22 @@ void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown
       count);
 }
 
+// Writes the corners of a leaf that is `grown` times as large, and returns the end of what it
+// wrote.
+float* CanopyPatch::placeCorners(const canopy::MovedLeaf& moved, const Drawn& drawn, double grown,
+                                 float* out) const {
+  const bool joined = joins(drawn.cut);
+  const Vec3 root = moved.root - origin_;
+  const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
+  const Vec3 side = grown * moved.side;
+  const double first = joined ? static_cast<double>(drawn.leaf.root_width) : 1.0;
+  const double last = joined ? static_cast<double>(drawn.leaf.tip_width) : 1.0;
+  for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),
+                         Vec3(tip - last * side), Vec3(tip + last * side)})
+    for (int k = 0; k < 3; ++k) *out++ = static_cast<float>(at[k]);
+  return out;
+}
+
 template <class Mover>
 void CanopyPatch::moveBy(const Mover& mover, std::size_t count) {
   drawn_ = std::min(count, leaves_.size());
@@ -291,16 +394,7 @@ void CanopyPatch::moveBy(const Mover& mover, std::size_t count) {
   positions_.resize(12 * drawn_);
   float* out = positions_.data();
   for (std::size_t i = 0; i < drawn_; ++i) {
-    const canopy::MovedLeaf moved = mover(leaves_[i]);
-    const bool joined = joins(leaves_[i].cut);
-    const Vec3 root = moved.root - origin_;
-    const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
-    const Vec3 side = grown * moved.side;
-    const double first = joined ? static_cast<double>(leaves_[i].leaf.root_width) : 1.0;
-    const double last = joined ? static_cast<double>(leaves_[i].leaf.tip_width) : 1.0;
-    for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),
-                           Vec3(tip - last * side), Vec3(tip + last * side)})
-      for (int k = 0; k < 3; ++k) *out++ = static_cast<float>(at[k]);
+    out = placeCorners(mover(leaves_[i]), leaves_[i], grown, out);
   }
   leaf_batch_.move(positions_);
 }

@@ -4,6 +4,7 @@
 
 #include <OgreSceneNode.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,19 +17,25 @@
 
 namespace vegetation_sim::view {
 
+/// Where a patch is drawn, and how it looks.
+struct PatchScene {
+  Vec3 origin;            ///< of the frame of `node` [m]
+  Ogre::SceneNode* node;  ///< lives longer than the patch
+  std::string leaf_material, stem_material;
+  Vec3 to_sun;
+};
+
 /// Neighbouring plants, or a crown of the forest, in two batches of leaves and stems. The outer
 /// leaves of each plant come first because they hide the others. Fewer, larger leaves are drawn at
 /// a distance. Render thread only.
 class CanopyPatch {
  public:
-  /// @param plants ids in the layout. @param node with its frame at `origin` [m].
-  CanopyPatch(const canopy::Replica& canopy, const std::vector<std::size_t>& plants,
-              const Vec3& origin, Ogre::SceneNode& node, const std::string& leaf_material,
-              const std::string& stem_material, const Vec3& to_sun);
+  /// @param plants ids in the layout. @param heights at which they have been cut, or UNCUT [m].
+  CanopyPatch(const canopy::Layout& layout, std::vector<std::size_t> plants,
+              std::vector<double> heights, const PatchScene& scene);
   /// Builds the leaves of a crown without its wood. @param number of the crown.
   CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown, std::size_t number,
-              const Vec3& origin, Ogre::SceneNode& node, const std::string& leaf_material,
-              const std::string& stem_material, const Vec3& to_sun);
+              const PatchScene& scene);
 
   /// Number of the crown; without a value for plants.
   const std::optional<std::size_t>& crown() const { return crown_; }
@@ -43,8 +50,30 @@ class CanopyPatch {
   bool takeSeen() { return leaf_batch_.takeSeen(); }
   void setRank(int rank);
 
-  /// Moves and draws the first `count` leaves, wider if they are not all.
-  void move(const canopy::Foliage& foliage, std::size_t count);
+  /// Moves and draws the first `count` leaves, wider if they are not all, without those in layers
+  /// that `pictured` selects.
+  void move(const canopy::Foliage& foliage, std::size_t count, const std::vector<bool>& pictured);
+  /// Returns whether all leaves are in layers that `pictured` selects.
+  bool isPictured(const canopy::Foliage& foliage, const std::vector<bool>& pictured) const;
+  /// Returns whether bodies have pushed a plant.
+  bool isBent(const canopy::Foliage& foliage) const;
+  /// Whose leaves: whole plants that are read from a file, and all of their kind are alike, or the
+  /// others.
+  enum class Share { ALIKE, OTHERS };
+  /// Returns such plants, which have leaves.
+  std::vector<std::size_t> alike() const;
+  /// Returns a share of the leaves at rest, on a node of another scene with its frame at the
+  /// origin. Those that are alike are in random order.
+  std::unique_ptr<Batch> copyAtRest(Ogre::SceneNode& node, const std::string& material,
+                                    Share share) const;
+  /// Calls visit(leaf, plant) for every `stride`-th leaf of a share.
+  template <class Visit>
+  void eachLeaf(Share share, std::size_t stride, const Visit& visit) const {
+    std::size_t number = 0;
+    for (const Drawn& drawn : leaves_)
+      if (drawn.share == share && number++ % stride == 0) visit(drawn.leaf, drawn.owner);
+  }
+  std::size_t leafCount(Share share) const;
   /// Moves the leaves of a crown whose branches have their bases at `wood`.
   void move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,
             const std::vector<Pose>& wood, std::size_t count);
@@ -63,10 +92,13 @@ class CanopyPatch {
     std::size_t kind;
     Vec3 in_ball;  // place in the unit ball of leaves
     LeafCut cut;
+    Share share;
     float order;  // leaves are drawn in rising order
   };
   void grow(const canopy::Layout& layout, std::size_t plant, double height);
-  void finish(const canopy::Layout& layout, Ogre::SceneNode& node, const Vec3& to_sun);
+  void finish(const canopy::Layout& layout, const PatchScene& scene);
+  float* placeCorners(const canopy::MovedLeaf& moved, const Drawn& drawn, double grown,
+                      float* out) const;
   template <class Mover>
   void moveBy(const Mover& mover, std::size_t count);
   void bendStems(const canopy::Foliage& foliage);
@@ -74,6 +106,7 @@ class CanopyPatch {
   void addRigid(const canopy::GrownPlant& grown, const Vec3& colour);
   VertexPaint paintOf(const canopy::Layout& layout, const Drawn& drawn, const Vec3& to_sun) const;
   void build(const canopy::Layout& layout, const Vec3& to_sun);
+  std::vector<float> placeAtRest(const std::vector<const Drawn*>& leaves) const;
 
   std::optional<std::size_t> crown_;
   std::vector<std::size_t> plants_;
@@ -81,6 +114,7 @@ class CanopyPatch {
   Vec3 origin_, middle_{Vec3::Zero()};
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;
+  std::vector<VertexPaint> leaf_paint_;
   std::vector<float> positions_;
   std::vector<float> stem_positions_;
   std::vector<VertexPaint> stem_paint_;

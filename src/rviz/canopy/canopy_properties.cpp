@@ -26,6 +26,11 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
   tolerance_ =
       addNumber("Tolerance", 7.f, "Leaves shorter than this become fewer and larger [pixel].", 0.1f,
                 1000.f, display);
+  pictures_ = addNumber(
+      "Picture Tolerance", 2.f,
+      "Layers with many leaves are drawn as pictures that are warped, where the predicted error is "
+      "below this [pixel]. 0: every leaf is drawn on its own.",
+      0.f, 1000.f, display);
   addRate(display, "Leaves move");
   addScenery(display, "Draw grass with the plants' shadows, unless another display has a ground.");
 }
@@ -40,6 +45,7 @@ CanopyVisual::Options CanopyProperties::options() const {
   CanopyVisual::Options out;
   out.most_leaves = static_cast<std::size_t>(most_leaves_->getInt());
   out.tolerance = tolerance_->getFloat();
+  out.pictures.tolerance = static_cast<double>(pictures_->getFloat());
   return out;
 }
 

@@ -22,7 +22,7 @@ class CanopyProperties : public SceneryProperties {
  private:
   rviz::RosTopicProperty *layout_, *state_, *forest_layout_, *forest_state_, *wind_;
   rviz::IntProperty* most_leaves_;
-  rviz::FloatProperty* tolerance_;
+  rviz::FloatProperty *tolerance_, *pictures_;
 };
 
 }  // namespace vegetation_sim::view

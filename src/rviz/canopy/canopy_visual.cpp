@@ -3,6 +3,7 @@
 #include "rviz/canopy/canopy_visual.h"
 
 #include <OgreSceneManager.h>
+#include <ros/time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,8 @@ constexpr int LEAF_EDGE = 128, BARK_EDGE = 256;  // [pixel]
 constexpr double PATCH = 5.0;                    // [m] edge of a patch
 constexpr double SHADOW_MARGIN = 1.0;            // [m] for large leaves and soft shadows
 constexpr double LOWEST_SUN = 0.15;              // as castShadows(): lower ones are as long
-constexpr double STILL = 1e-4;                   // [m], [rad] a viewer moves without effect
+constexpr std::size_t MOST_READ_LEAVES = 1000000;
+constexpr double STILL = 1e-4;  // [m], [rad] a viewer moves without effect
 
 // Painted once per process.
 const std::vector<Image>& sharedFoliage() {
@@ -68,7 +70,9 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
       leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
                      {leaf_texture_.name()}),
       stem_material_(Material::Kind::BARK, uniqueName("stem_material"), {stem_texture_.name()}) {
-  const canopy::Layout& layout = canopy.replica()->layout();
+  layout_ = canopy.replica()->layout();
+  const canopy::Layout& layout = layout_;
+  thinForms();
   const std::vector<LeafedCrowns::Crown>& crowns = canopy.crowns().crowns();
   if (!layout.plants.empty())
     origin_ = layout.plants.front().position;
@@ -79,10 +83,35 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
                      static_cast<float>(origin_.z()));
   for (const auto& [cell, plants] : cellsOf(layout)) add(patchOf(*canopy.replica(), plants));
   for (std::size_t i = 0; i < crowns.size(); ++i)
-    add(std::make_unique<CanopyPatch>(layout, crowns[i], i, origin_, *node_, leaf_material_.name(),
-                                      stem_material_.name(), to_sun));
+    add(std::make_unique<CanopyPatch>(layout, crowns[i], i, patchScene()));
   report_.plants = layout.plants.size();
   report_.crowns = crowns.size();
+}
+
+PatchScene CanopyVisual::patchScene() const {
+  return {origin_, node_, leaf_material_.name(), stem_material_.name(), to_sun_};
+}
+
+// Leaf by leaf, plants that are read from files have together at most MOST_READ_LEAVES leaves,
+// which are larger. Pictures show all.
+void CanopyVisual::thinForms() {
+  thinned_ = layout_;
+  std::size_t leaves = 0;
+  for (const canopy::Plant& plant : layout_.plants)
+    if (isRead(layout_.kinds[plant.kind])) leaves += canopy::leafCount(layout_.kinds[plant.kind]);
+  const std::size_t stride = 1 + leaves / MOST_READ_LEAVES;
+  if (stride == 1) return;
+  for (canopy::PlantKind& kind : thinned_.kinds) {
+    if (!kind.form) continue;
+    auto form = std::make_shared<canopy::Form>();
+    form->radius = kind.form->radius;
+    form->rigid = kind.form->rigid;
+    for (std::size_t i = 0; i < kind.form->leaves.size(); i += stride) {
+      form->leaves.push_back(kind.form->leaves[i]);
+      form->leaves.back().side *= std::sqrt(static_cast<double>(stride));
+    }
+    kind.form = form;
+  }
 }
 
 void CanopyVisual::add(std::unique_ptr<CanopyPatch> patch) {
@@ -95,14 +124,16 @@ void CanopyVisual::add(std::unique_ptr<CanopyPatch> patch) {
 
 std::unique_ptr<CanopyPatch> CanopyVisual::patchOf(const canopy::Replica& canopy,
                                                    const std::vector<std::size_t>& plants) const {
-  return std::make_unique<CanopyPatch>(canopy, plants, origin_, *node_, leaf_material_.name(),
-                                       stem_material_.name(), to_sun_);
+  std::vector<double> heights;
+  for (const std::size_t plant : plants) heights.push_back(canopy.cutHeight(plant));
+  return std::make_unique<CanopyPatch>(thinned_, plants, heights, patchScene());
 }
 
 // Makes the patches anew in which plants have been cut.
 void CanopyVisual::updateCuts(const canopy::Replica& canopy) {
   for (std::unique_ptr<CanopyPatch>& patch : patches_) {
     if (!patch->isOutdated(canopy)) continue;
+    if (images_) images_->dropPatches();
     report_.leaves -= patch->leafCount();
     patch = patchOf(canopy, patch->plants());
     report_.leaves += patch->leafCount();
@@ -120,6 +151,7 @@ Extent CanopyVisual::shadowOf(const CanopyPatch& patch) const {
 }
 
 CanopyVisual::~CanopyVisual() {
+  images_.reset();
   patches_.clear();
   node_->getCreator()->destroySceneNode(node_);
 }
@@ -127,6 +159,38 @@ CanopyVisual::~CanopyVisual() {
 void CanopyVisual::light(const Daylight& daylight, const Haze& haze) {
   leaf_material_.light(daylight, daylight.to_sun, haze);
   stem_material_.light(daylight, daylight.to_sun, haze);
+  daylight_ = daylight;
+  haze_ = haze;
+  if (images_) images_->light(daylight, haze);
+}
+
+void CanopyVisual::repaint() {
+  changes_ = -1;
+  if (images_) images_->renderAgain();
+}
+
+// Returns for each layer whether a picture shows it; nothing if there are no pictures. Crowns hang
+// on wood that moves, and bodies push plants as no picture shows it.
+const std::vector<bool>& CanopyVisual::updatePictures(const canopy::Foliage& foliage,
+                                                      const View& view,
+                                                      const LayerImages::Options& options) {
+  static const std::vector<bool> none;
+  const bool wanted = options.tolerance > 0.0 && LayerImages::isSupported() &&
+                      foliage.warp().method == canopy::WarpMethod::WARP;
+  if (!wanted) {
+    images_.reset();
+    return none;
+  }
+  if (!images_) {
+    images_ =
+        std::make_unique<LayerImages>(*node_, layout_, origin_, leaf_texture_.name(), to_sun_);
+    images_->light(daylight_, haze_);
+  }
+  std::vector<const CanopyPatch*> upright;
+  for (const auto& patch : patches_)
+    if (!patch->crown() && !patch->isBent(foliage)) upright.push_back(patch.get());
+  images_->update(foliage, upright, view, ros::WallTime::now().toSec(), options);
+  return images_->pictured();
 }
 
 // Returns the visible patches. Near ones come first because they hide others. Plants that bodies
@@ -145,8 +209,9 @@ std::vector<CanopyPatch*> CanopyVisual::inPicture(const View& view, bool bent) c
 void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const View& view,
                           const Options& options) {
   const bool swayed = report_.crowns > 0 && stamp != stamp_;
-  if (!swayed && changes_ == canopy.changes() && length(eye_ - view.eye.position) < STILL &&
-      length(forward_ - view.forward) < STILL)
+  const bool fades = images_ && images_->isBusy();
+  if (!swayed && !fades && changes_ == canopy.changes() &&
+      length(eye_ - view.eye.position) < STILL && length(forward_ - view.forward) < STILL)
     return;
   changes_ = canopy.changes();
   stamp_ = stamp;
@@ -154,6 +219,7 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
   forward_ = view.forward;
   updateCuts(*canopy.replica());
   const canopy::Foliage& foliage = canopy.replica()->foliage();
+  const std::vector<bool>& pictured = updatePictures(foliage, view, options.pictures);
   const std::vector<CanopyPatch*> seen = inPicture(view, foliage.anyBent());
   double wanted = 0.0;
   for (const CanopyPatch* patch : seen) wanted += wantedOf(*patch, view, options.tolerance);
@@ -168,10 +234,12 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
     if (const auto& crown = patch->crown())
       patch->move(foliage, canopy.crowns().crowns()[*crown], canopy.wood(*crown, stamp), count);
     else
-      patch->move(foliage, count);
+      patch->move(foliage, count, patch->isBent(foliage) ? std::vector<bool>() : pictured);
     report_.drawn += patch->drawn();
   }
   report_.layers = foliage.layers();
+  report_.pictures = static_cast<int>(std::count(pictured.begin(), pictured.end(), true));
+  report_.renderings = images_ ? images_->renderings() : 0;
   ++report_.rebuilds;
 }
 

@@ -10,6 +10,7 @@
 
 #include "ros/replicas/subscribed_canopy.h"
 #include "rviz/canopy/canopy_patch.h"
+#include "rviz/canopy/layer_images.h"
 #include "rviz/ground/ground_texture.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
@@ -20,9 +21,10 @@ namespace vegetation_sim::view {
 /// Figures of the last update.
 struct CanopyReport {
   std::size_t plants{0}, crowns{0}, leaves{0};  ///< in the layout
-  std::size_t drawn{0};                         ///< leaves in the picture
-  int layers{0};
-  int rebuilds{0};  ///< number of updates with changes
+  std::size_t drawn{0};                         ///< leaves that are drawn one by one
+  int layers{0}, pictures{0};                   ///< pictures: layers that are drawn as pictures
+  int renderings{0};                            ///< number of times that pictures were rendered
+  int rebuilds{0};                              ///< number of updates with changes
 };
 
 /// The OGRE objects of the plants and crowns of a layout, which it owns. Render thread only.
@@ -31,6 +33,7 @@ class CanopyVisual {
   struct Options {
     std::size_t most_leaves{40000};
     float tolerance{7.f};  ///< smaller leaves become fewer and larger [pixel]
+    LayerImages::Options pictures;
   };
 
   /// @param parent node in the frame of the layout. @param canopy with a layout.
@@ -44,7 +47,7 @@ class CanopyVisual {
               const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Moves all leaves again at the next update.
-  void repaint() { changes_ = -1; }
+  void repaint();
 
   /// Square around the plants, and the light that reaches a window of its ground.
   Plot plot() const;
@@ -55,19 +58,27 @@ class CanopyVisual {
   const CanopyReport& report() const { return report_; }
 
  private:
+  void thinForms();
+  PatchScene patchScene() const;
   void add(std::unique_ptr<CanopyPatch> patch);
   std::unique_ptr<CanopyPatch> patchOf(const canopy::Replica& canopy,
                                        const std::vector<std::size_t>& plants) const;
   void updateCuts(const canopy::Replica& canopy);
   Extent shadowOf(const CanopyPatch& patch) const;
+  const std::vector<bool>& updatePictures(const canopy::Foliage& foliage, const View& view,
+                                          const LayerImages::Options& options);
   std::vector<CanopyPatch*> inPicture(const View& view, bool bent) const;
 
   Vec3 to_sun_;
+  canopy::Layout layout_, thinned_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Vec3 origin_{Vec3::Zero()};
   Texture leaf_texture_, stem_texture_;
   Material leaf_material_, stem_material_;
   std::vector<std::unique_ptr<CanopyPatch>> patches_;
+  std::unique_ptr<LayerImages> images_;  // null: no layer has a picture
+  Daylight daylight_;
+  Haze haze_;
   Extent extent_;
   std::vector<Extent> cut_areas_;
   int changes_{-1};

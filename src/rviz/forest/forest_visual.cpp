@@ -62,9 +62,9 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
       leaf_material_(Material::Kind::LEAVES, uniqueName("leaf_material"), {leaf_texture_.name()}),
       bark_material_(Material::Kind::BARK, uniqueName("bark_material"), {bark_texture_.name()}),
       fading_leaf_material_(Material::Kind::LEAVES, uniqueName("fading_leaf_material"),
-                            {leaf_texture_.name()}, true),
+                            {leaf_texture_.name()}, Material::Variant::FADING),
       fading_bark_material_(Material::Kind::BARK, uniqueName("fading_bark_material"),
-                            {bark_texture_.name()}, true) {}
+                            {bark_texture_.name()}, Material::Variant::FADING) {}
 
 ForestVisual::~ForestVisual() {
   pieces_.clear();

@@ -15,7 +15,7 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr unsigned short POSITION_STREAM = 0, PAINT_STREAM = 1;
+constexpr unsigned short POSITION_STREAM = 0, PAINT_STREAM = 1, ANCHOR_STREAM = 2;
 constexpr std::size_t LARGEST_SHORT_INDEX = 65535;
 
 void declareVertices(Ogre::VertexDeclaration& declaration) {
@@ -66,7 +66,7 @@ void Batch::clear() {
   delete mRenderOp.indexData;
   mRenderOp.vertexData = nullptr;
   mRenderOp.indexData = nullptr;
-  positions_ = paint_ = Ogre::HardwareVertexBufferSharedPtr();
+  positions_ = paint_ = anchors_ = Ogre::HardwareVertexBufferSharedPtr();
 }
 
 void Batch::build(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,
@@ -100,6 +100,30 @@ void Batch::setBox(const std::vector<float>& positions, float margin) {
   const Ogre::Vector3 around(margin, margin, margin);
   setBoundingBox(Ogre::AxisAlignedBox(box.getMinimum() - around, box.getMaximum() + around));
   if (getParentNode() != nullptr) getParentNode()->needUpdate();
+}
+
+void Batch::setAnchors(const std::vector<float>& anchors) {
+  if (mRenderOp.vertexData == nullptr) return;
+  anchors_ = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+      3 * sizeof(float), anchors.size() / 3, Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  anchors_->writeData(0, sizeof(float) * anchors.size(), anchors.data(), true);
+  mRenderOp.vertexData->vertexDeclaration->addElement(ANCHOR_STREAM, 0, Ogre::VET_FLOAT3,
+                                                      Ogre::VES_TEXTURE_COORDINATES, 2);
+  mRenderOp.vertexData->vertexBufferBinding->setBinding(ANCHOR_STREAM, anchors_);
+}
+
+void Batch::share(const Batch& other) {
+  clear();
+  if (other.mRenderOp.vertexData == nullptr) return;
+  mRenderOp.operationType = other.mRenderOp.operationType;
+  mRenderOp.useIndexes = true;
+  mRenderOp.vertexData = other.mRenderOp.vertexData->clone(false);
+  mRenderOp.indexData = other.mRenderOp.indexData->clone(false);
+  setBoundingBox(other.mBox);
+}
+
+std::size_t Batch::triangleCount() const {
+  return mRenderOp.indexData == nullptr ? 0 : mRenderOp.indexData->indexBuffer->getNumIndexes() / 3;
 }
 
 void Batch::move(const std::vector<float>& positions) {

@@ -27,6 +27,13 @@ class Batch : public Ogre::SimpleRenderable {
   /// empty list draws nothing.
   void build(const std::vector<float>& positions, const std::vector<VertexPaint>& paint,
              const std::vector<std::uint32_t>& triangles, float margin);
+  /// Adds the anchors of the leaves to the vertices of build() [3 per vertex]: layered materials
+  /// draw those in one layer.
+  void setAnchors(const std::vector<float>& anchors);
+  /// Draws the triangles of another batch, which are stored once. Only limit() may change them
+  /// here.
+  void share(const Batch& other);
+  std::size_t triangleCount() const;
   /// Moves the vertices of build(); they may leave its bounding box by `margin` [m].
   void move(const std::vector<float>& positions);
   /// Draws only the first triangles of build(); positions of the others need not be given.
@@ -53,7 +60,7 @@ class Batch : public Ogre::SimpleRenderable {
   void clear();
   void setBox(const std::vector<float>& positions, float margin);
 
-  Ogre::HardwareVertexBufferSharedPtr positions_, paint_;
+  Ogre::HardwareVertexBufferSharedPtr positions_, paint_, anchors_;
   bool seen_{true}, in_view_{true};
 };
 

@@ -8,6 +8,8 @@
 #include <OgreMaterialManager.h>
 #include <OgreTechnique.h>
 
+#include <algorithm>
+
 #include "rviz/render/shaders.h"
 
 namespace vegetation_sim::view {
@@ -23,9 +25,16 @@ Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const std::str
   return program;
 }
 
-void bindEye(Ogre::GpuProgramParameters& parameters) {
+void bindCamera(Ogre::GpuProgramParameters& parameters, Material::Kind kind,
+                Material::Variant variant) {
   parameters.setNamedAutoConstant("world_view_projection",
                                   Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  if (kind == Material::Kind::LAYER) return;
+  if (variant == Material::Variant::LAYERED) {
+    parameters.setNamedAutoConstant("world", Ogre::GpuProgramParameters::ACT_WORLD_MATRIX);
+    parameters.setNamedAutoConstant("eye", Ogre::GpuProgramParameters::ACT_CAMERA_POSITION);
+    return;
+  }
   parameters.setNamedAutoConstant("eye",
                                   Ogre::GpuProgramParameters::ACT_CAMERA_POSITION_OBJECT_SPACE);
 }
@@ -47,6 +56,8 @@ Sources sourcesOf(Material::Kind kind) {
       return {GRASS_VERTEX, STRIP_FRAGMENT};
     case Material::Kind::SHADOWS:
       return {GRASS_VERTEX, SHADOW_FRAGMENT};
+    case Material::Kind::LAYER:
+      return {LAYER_VERTEX, LAYER_FRAGMENT};
     default:
       return {PLANT_VERTEX, PLANT_FRAGMENT};
   }
@@ -59,6 +70,16 @@ void makeShadow(Ogre::Pass& pass) {
   pass.setDepthBias(2.f, 2.f);
 }
 
+// Draws colours that are multiplied by their alpha, over what is behind.
+void makeLayer(Ogre::Pass& pass) {
+  pass.setSceneBlending(Ogre::SBF_ONE, Ogre::SBF_ONE_MINUS_SOURCE_ALPHA);
+}
+
+const char* headOf(Material::Variant variant) {
+  if (variant == Material::Variant::FADING) return FADING_HEAD;
+  return variant == Material::Variant::LAYERED ? LAYERED_HEAD : HEAD;
+}
+
 Ogre::Vector4 narrow(const Rgba& c) {
   return {c[0], c[1], c[2], c[3]};
 }
@@ -66,8 +87,8 @@ Ogre::Vector4 narrow(const Rgba& c) {
 }  // namespace
 
 Material::Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
-                   bool fades)
-    : kind_(kind), fades_(fades), name_(name) {
+                   Variant variant)
+    : kind_(kind), variant_(variant), name_(name) {
   material_ = Ogre::MaterialManager::getSingleton().create(name, GROUP);
   material_->setReceiveShadows(false);
   material_->removeAllTechniques();
@@ -101,7 +122,7 @@ void Material::addTextures(Ogre::Pass& pass, const std::vector<std::string>& tex
 void Material::addShaded(const std::vector<std::string>& textures) {
   programs_ = {name_ + "/vertex", name_ + "/fragment"};
   const Sources sources = sourcesOf(kind_);
-  const std::string head = fades_ ? FADING_HEAD : HEAD;
+  const std::string head = headOf(variant_);
   const auto vertex = makeProgram(programs_[0], head + sources.vertex, Ogre::GPT_VERTEX_PROGRAM);
   const auto fragment =
       makeProgram(programs_[1], head + sources.fragment, Ogre::GPT_FRAGMENT_PROGRAM);
@@ -109,7 +130,7 @@ void Material::addShaded(const std::vector<std::string>& textures) {
   pass->setVertexProgram(programs_[0]);
   pass->setFragmentProgram(programs_[1]);
   pass->setFog(true, Ogre::FOG_NONE);  // the shaders add haze
-  bindEye(*pass->getVertexProgramParameters());
+  bindCamera(*pass->getVertexProgramParameters(), kind_, variant_);
   if (kind_ != Kind::BLADES) pass->getFragmentProgramParameters()->setNamedConstant("picture", 0);
   if (kind_ == Kind::GROUND) {
     pass->getFragmentProgramParameters()->setNamedConstant("grain", 1);
@@ -118,6 +139,10 @@ void Material::addShaded(const std::vector<std::string>& textures) {
   if (kind_ == Kind::LEAVES) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER_EQUAL, 128);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   if (kind_ == Kind::SHADOWS) makeShadow(*pass);
+  if (kind_ == Kind::LAYER) {
+    makeLayer(*pass);
+    show(1.f);
+  }
   addTextures(*pass, textures);
 }
 
@@ -133,6 +158,7 @@ void Material::addPlain(const std::vector<std::string>& textures) {
   if (kind_ == Kind::STRIPS) pass->setAlphaRejectSettings(Ogre::CMPF_GREATER, 127);
   if (hasTwoSides(kind_)) pass->setCullingMode(Ogre::CULL_NONE);
   if (kind_ == Kind::SHADOWS) makeShadow(*pass);
+  if (kind_ == Kind::LAYER) makeLayer(*pass);
   if (kind_ == Kind::SKY) {
     pass->setFog(true, Ogre::FOG_NONE);
     pass->setDepthWriteEnabled(false);
@@ -149,7 +175,7 @@ void Material::addPlain(const std::vector<std::string>& textures) {
 }
 
 void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
-  if (kind_ == Kind::SKY) return;
+  if (kind_ == Kind::SKY || kind_ == Kind::LAYER) return;
   Ogre::Pass* pass = material_->getTechnique(0)->getPass(0);
   Ogre::GpuProgramParameters& vertex = *pass->getVertexProgramParameters();
   const float length = std::max(haze.end - haze.start, 1.f);
@@ -170,6 +196,23 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
 void Material::setFadeClock(float clock) {
   material_->getTechnique(0)->getPass(0)->getVertexProgramParameters()->setNamedConstant(
       "fade_clock", Ogre::Vector4(clock, 0.f, 0.f, 0.f));
+}
+
+void Material::setLayer(const Vec3& axis, double depth, const std::array<double, 2>& depths) {
+  Ogre::GpuProgramParameters& vertex =
+      *material_->getTechnique(0)->getPass(0)->getVertexProgramParameters();
+  const auto narrowed = [](double value) {
+    return static_cast<float>(std::clamp(value, -1e30, 1e30));
+  };
+  vertex.setNamedConstant("depth_axis", Ogre::Vector4(narrowed(axis.x()), narrowed(axis.y()),
+                                                      narrowed(axis.z()), narrowed(depth)));
+  vertex.setNamedConstant("depths",
+                          Ogre::Vector4(narrowed(depths[0]), narrowed(depths[1]), 0.f, 0.f));
+}
+
+void Material::show(float part) {
+  material_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
+      "shown", Ogre::Vector4(part, 0.f, 0.f, 0.f));
 }
 
 void Material::darken(float distance) {

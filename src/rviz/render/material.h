@@ -4,6 +4,7 @@
 
 #include <OgreMaterial.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,15 @@ struct Haze {
 /// them. Render thread only.
 class Material {
  public:
-  enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS };
+  /// LAYER: the picture of a layer of leaves.
+  enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS, LAYER };
+  /// FADING: vertices fade by VertexPaint::fade. LAYERED: only leaves of the layer of setLayer().
+  enum class Variant { WHOLE, FADING, LAYERED };
 
   /// @param textures names of the texture and, for the ground, of its grain; none for blades.
-  /// @param fades for bark and leaves: vertices fade by VertexPaint::fade.
+  /// @param variant of bark and leaves.
   Material(Kind kind, const std::string& name, const std::vector<std::string>& textures,
-           bool fades = false);
+           Variant variant = Variant::WHOLE);
   ~Material();
   Material(const Material&) = delete;
   Material& operator=(const Material&) = delete;
@@ -37,6 +41,11 @@ class Material {
   void light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze);
   /// Sets the clock of VertexPaint::fade; a fade takes one unit of it.
   void setFadeClock(float clock);
+  /// For layered leaves: sets the layer that is drawn. The depth is that along `axis`, and that of
+  /// the scene's origin is `depth` [m]. @param depths begin and end of the layer [m].
+  void setLayer(const Vec3& axis, double depth, const std::array<double, 2>& depths);
+  /// For the picture of a layer: part that shows, 0 to 1; the default is 1.
+  void show(float part);
   /// For the ground: up to this distance [m] the texture's alpha darkens it. The default is 0.
   void darken(float distance);
 
@@ -46,7 +55,7 @@ class Material {
   void addTextures(Ogre::Pass& pass, const std::vector<std::string>& textures) const;
 
   Kind kind_;
-  bool fades_;
+  Variant variant_;
   std::string name_;
   Ogre::MaterialPtr material_;
   std::vector<std::string> programs_;

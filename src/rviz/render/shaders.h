@@ -8,8 +8,10 @@ namespace vegetation_sim::view {
 // vertex. Vertex alpha: part of the sun that arrives; third texture coordinate: part of the sky.
 
 constexpr const char* HEAD = "#version 120\n";
+constexpr const char* LAYERED_HEAD = "#version 120\n#define LAYERED\n";
 constexpr const char* FADING_HEAD = "#version 120\n#define FADING\n";
 
+// LAYERED draws the leaves of one layer, selected by their anchors, opaque on nothing.
 // Meshes of two levels of a tree fade into one another pixel by pixel, without any order: what
 // comes shows where a pattern is below the part that shows, what goes where it is not.
 constexpr const char* PLANT_VERTEX = R"(uniform mat4 world_view_projection;
@@ -24,20 +26,35 @@ varying vec2 place;
 uniform vec4 fade_clock;
 varying float shown;  // part of what comes; of what goes less 1
 #endif
+#ifdef LAYERED  // eye and sun are in the scene's frame
+uniform mat4 world;
+uniform vec4 depth_axis;  // direction; depth of the origin
+uniform vec4 depths;      // begin and end of the layer
+#endif
 void main() {
   gl_Position = world_view_projection * gl_Vertex;
+#ifdef LAYERED
+  vec3 anchor = (world * vec4(gl_MultiTexCoord2.xyz, 1.0)).xyz;
+  float depth = dot(depth_axis.xyz, anchor) + depth_axis.w;
+  if (depth < depths.x || depth >= depths.y) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  vec3 at = (world * gl_Vertex).xyz;
+  vec3 normal = normalize((world * vec4(gl_Normal, 0.0)).xyz);
+#else
+  vec3 at = gl_Vertex.xyz;
+  vec3 normal = gl_Normal;
+#endif
 #ifdef FADING
   float since = gl_MultiTexCoord1.x;
   float part = clamp(fade_clock.x - abs(since), 0.0, 1.0);
   shown = since == 0.0 ? 1.0 : since > 0.0 ? part : part - 1.0;
 #endif
-  vec3 view = gl_Vertex.xyz - eye.xyz;
+  vec3 view = at - eye.xyz;
   float far = length(view);
-  float facing = (dot(gl_Normal, to_sun.xyz) + leaf.x) / (1.0 + leaf.x);
+  float facing = (dot(normal, to_sun.xyz) + leaf.x) / (1.0 + leaf.x);
   float against = max(dot(view / far, to_sun.xyz), 0.0);
   float through = leaf.y * (0.25 + against * against * against);
   vec3 direct = sun.rgb * gl_Color.a * (max(facing, 0.0) + through);
-  vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * gl_Normal.z);
+  vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * normal.z);
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
   light.rgb = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z)) *
@@ -59,7 +76,31 @@ void main() {
   if (shown > 0.0 ? pattern >= shown : pattern < shown + 1.0) discard;
 #endif
   vec4 paint = texture2D(picture, place);
+#ifdef LAYERED
+  if (paint.a < 0.5) discard;
+  paint.a = 1.0;
+#endif
   gl_FragColor = vec4(light.rgb * paint.rgb + haze_colour.rgb * light.a, paint.a);
+}
+)";
+
+// The picture of a layer on its grid. The picture has its light in it, and its colours are
+// multiplied by their alpha. Texture coordinates are homogeneous.
+constexpr const char* LAYER_VERTEX = R"(uniform mat4 world_view_projection;
+varying vec3 place;
+void main() {
+  gl_Position = world_view_projection * gl_Vertex;
+  place = gl_MultiTexCoord0.xyz;
+}
+)";
+
+constexpr const char* LAYER_FRAGMENT = R"(uniform sampler2D picture;
+uniform vec4 shown;  // part of the picture that shows
+varying vec3 place;
+void main() {
+  vec4 paint = texture2DProj(picture, place);
+  if (paint.a < 0.4) discard;
+  gl_FragColor = paint * shown.x;
 }
 )";
 

@@ -54,6 +54,8 @@ std::optional<View> viewOf(rviz::DisplayContext& context, const Ogre::SceneNode&
   const double half = 0.5 * static_cast<double>(camera.getFOVy().valueRadians());
   const auto aspect = static_cast<double>(camera.getAspectRatio());
   view.half_angle = std::atan(std::tan(half) * std::hypot(1.0, aspect));
+  view.half_height = std::tan(half);
+  view.half_width = view.half_height * aspect;
   const rviz::RenderPanel* panel = context.getViewManager()->getRenderPanel();
   const double height = panel != nullptr ? std::max(panel->height(), 1) : 900.0;
   view.eye.pixels_per_radian = 0.5 * height / std::tan(half);

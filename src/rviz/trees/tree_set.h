@@ -15,6 +15,8 @@ struct View {
   forest::Viewpoint eye;
   Vec3 forward{Vec3::UnitX()};  ///< unit
   double half_angle{0.6};       ///< of a cone around the picture [rad]
+  double half_width{0.53};      ///< tangents of half of the angles of view
+  double half_height{0.4};
 
   bool sees(const Vec3& centre, double radius) const;
 };

@@ -23,7 +23,6 @@ void use(canopy::Replica& replica) {
   const std::vector<canopy::Leaf> leaves = canopy::grow(kind, plant).leaves;
   for (std::size_t i = 0; i < leaves.size(); i += 7)
     requireFinite(foliage.move(leaves[i], 0).tip, "tip of a leaf");
-  foliage.backToFront(leaves);
 }
 
 // As SubscribedCanopy does; that needs a master.

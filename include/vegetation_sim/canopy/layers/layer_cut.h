@@ -46,6 +46,10 @@ class LayerCut {
   double depthOf(const Vec3& world) const { return -dot(axes_.out, Vec3(world - eye_)); }
   /// Returns the layer of a leaf by the position of its root (S3-03).
   int layerAt(const Vec3& root) const;
+  /// Returns the depths between which the roots of the leaves of a layer lie; without an end before
+  /// the first and behind the last layer [m].
+  std::array<double, 2> depthsOf(int layer) const;
+  const Vec3& eye() const { return eye_; }
   /// Returns the distance of a layer's middle from that of the first [m].
   double distance(int layer) const { return distances_[static_cast<std::size_t>(layer)]; }
   double last() const { return distances_.back(); }

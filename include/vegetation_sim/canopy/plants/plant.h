@@ -13,7 +13,10 @@
 
 namespace vegetation_sim::canopy {
 
-constexpr std::size_t MOST_LEAVES = 3000000;  ///< limit for all plants together
+/// Limit for all plants together. Those of a kind that is read from a file share their leaves,
+/// which count once.
+constexpr std::size_t MOST_LEAVES = 3000000;
+constexpr std::size_t MOST_SHOWN_LEAVES = 100000000;  ///< limit without sharing
 constexpr std::size_t MOST_PLANTS = 65536;
 
 /// SHRUB: leaves on tufts from the ground up. CROWN: tufts on a bare trunk. REED: upright ribbons.
