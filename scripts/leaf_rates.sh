@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Measures what CanopyDisplay takes for a frame while leaves move, for more and more plants of a
-# mesh at the same view: with pictures of the layers, and leaf by leaf.
+# Measures what CanopyDisplay takes for a frame while leaves move, for the same plants with more and
+# more faces: leaf by leaf, of which it draws 40000, and with pictures of the layers.
 # usage: scripts/leaf_rates.sh [--seconds N] [--pictures FOLDER] [FACES ...]
-#   FACES  numbers of faces; 80000 5000000 50000000 by default. A plant has 80000.
+#   FACES  numbers of faces of 625 plants together; 80000 5000000 50000000 by default
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
@@ -43,7 +43,7 @@ for faces in "${numbers[@]}"; do
   for tolerance in 0 1000; do
     write_view $tolerance
     say "$faces faces, $([ $tolerance = 0 ] && echo 'leaf by leaf' || echo pictures) (load $(cut -d ' ' -f 1 /proc/loadavg))"
-    "$DEVEL/lib/vegetation_sim/rviz_frames" "$WORK/leaves.rviz" --seconds "$seconds" \
+    "$DEVEL/lib/vegetation_sim/rviz_frames" "$WORK/leaves.rviz" --settle 70 --seconds "$seconds" \
       ${pictures:+--picture "$pictures/leaves_${faces}_$tolerance.png"} 2>/dev/null | grep frames
   done
   stop_process "$launch_pid"

@@ -5,19 +5,19 @@
 
 usage: make_thicket.py FACES FOLDER
 
-Writes plant.obj, which has 80000 faces or FACES if that is less, scene.yaml with as many plants as
-give FACES, and scene.launch."""
+Writes plant.obj, scene.yaml with 625 such plants, which have FACES faces together, and
+scene.launch."""
 import math
 import os
 import random
 import sys
 
-MOST = 80000
-COLUMNS = 25
+PLANTS, COLUMNS = 625, 25
 
 
 def plant(faces):
-    """Returns the text of a bush of leaves of two faces each."""
+    """Returns the text of a bush of leaves of two faces each, which cover the same area for any
+    number of faces."""
     numbers = random.Random(1)
     lines, first = [], 1
     for _ in range(faces // 2):
@@ -26,7 +26,7 @@ def plant(faces):
         ring = math.sqrt(1.0 - z * z)
         out = (ring * math.cos(around), ring * math.sin(around), z)
         root = [0.6 * deep * out[0], 0.6 * deep * out[1], 0.5 + 0.5 * deep * out[2]]
-        size = 0.025 * numbers.uniform(0.6, 1.4)
+        size = 0.025 * math.sqrt(80000.0 / faces) * numbers.uniform(0.6, 1.4)
         along = [size * (out[k] + numbers.uniform(-0.9, 0.9)) for k in range(3)]
         side = [0.3 * size * numbers.uniform(-1.0, 1.0) for _ in range(3)]
         middle = [root[k] + 0.5 * along[k] for k in range(3)]
@@ -41,9 +41,8 @@ def plant(faces):
 
 def main():
     faces, folder = int(sys.argv[1]), os.path.abspath(sys.argv[2])
-    each = min(faces, MOST)
     with open(os.path.join(folder, 'plant.obj'), 'w') as file:
-        file.write(plant(each))
+        file.write(plant(faces // PLANTS))
     numbers = random.Random(2)
     with open(os.path.join(folder, 'scene.yaml'), 'w') as file:
         file.write('wind:\n  primitives:\n'
@@ -51,7 +50,7 @@ def main():
                    'canopy:\n  kinds:\n'
                    '    - {name: bush, shape: mesh, file: %s/plant.obj, height: 1.4}\n'
                    '  plants:\n' % folder)
-        for i in range(max(1, faces // each)):
+        for i in range(PLANTS):
             row, column = divmod(i, COLUMNS)
             at = (0.9 * row + numbers.uniform(-0.2, 0.2),
                   0.8 * ((column + 1) // 2) * (-1) ** column + numbers.uniform(-0.2, 0.2))

@@ -3,7 +3,8 @@
 // Loads a configuration of rviz beside running nodes, without rviz's window, and reports how many
 // frames per second it draws, of how many triangles, in what time of all processors, and how much
 // levels of detail change pictures as the camera moves away.
-// usage: rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] [--dolly FACTOR]
+// usage: rviz_frames FILE.rviz [--view FILE.rviz] [--settle N] [--seconds N] [--picture FILE]
+//        [--dolly FACTOR]
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -35,7 +36,6 @@ namespace {
 namespace bench = vegetation_sim::bench;
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
-constexpr double SETTLING = 20.0;          // [s] until everything is drawn
 constexpr double LISTENING = 5.0;          // [s] for each topic of markers
 constexpr int BLOCK = 16;  // [pixel] edge of the blocks over which differences are averaged
 constexpr int STEPS = 6;   // number of steps of the camera
@@ -184,25 +184,26 @@ class Frames {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "rviz_frames", ros::init_options::AnonymousName);
   const QApplication application(argc, argv);
-  double seconds = 10.0, factor = 0.0;
+  double settling = 20.0, seconds = 10.0, factor = 0.0;  // settling: [s] until everything is drawn
   const char *view = argc > 1 ? argv[1] : "", *picture = nullptr;
   for (int i = 2; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--view") == 0) view = argv[i + 1];
     if (std::strcmp(argv[i], "--picture") == 0) picture = argv[i + 1];
+    if (std::strcmp(argv[i], "--settle") == 0) settling = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--dolly") == 0) factor = std::atof(argv[i + 1]);
   }
   if (argc < 2) {
     std::fprintf(stderr,
-                 "usage: rviz_frames FILE.rviz [--view FILE.rviz] [--seconds N] [--picture FILE] "
-                 "[--dolly FACTOR]\n");
+                 "usage: rviz_frames FILE.rviz [--view FILE.rviz] [--settle N] [--seconds N] "
+                 "[--picture FILE] [--dolly FACTOR]\n");
     return 2;
   }
   // without a graphics card anti-aliasing halves the rate
   rviz::RenderSystem::disableAntiAliasing();
   Frames frames;
   if (!frames.load(argv[1], view)) return 1;
-  frames.run(SETTLING);
+  frames.run(settling);
   frames.measure(seconds);
   if (picture != nullptr) frames.write(picture);
   const bool rested = factor <= 0.0 || frames.dolly(factor);

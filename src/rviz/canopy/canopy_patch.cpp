@@ -339,6 +339,7 @@ void CanopyPatch::move(const canopy::Foliage& foliage, std::size_t count,
       },
       isPictured(foliage, pictured) ? 0 : count);
   drawn_ -= skipped;
+  if (drawn_ == 0) leaf_batch_.limit(0);
   bendStems(foliage);
 }
 
