@@ -172,6 +172,9 @@ void check(const Layout& layout, Faults& faults) {
     if (kind.push.stiffness > 0.0 && kind.push.stiffness < LEAST_PUSH_STIFFNESS)
       kind_checker.number("push_stiffness above 0", kind.push.stiffness, "N/m^3",
                           {LEAST_PUSH_STIFFNESS, 1e6});
+    if (kind.rigid.size() > LONGEST_RIGID_WORDS)
+      faults.add(numbered("kinds", i) + "rigid has " + std::to_string(kind.rigid.size()) +
+                 " characters, more than the " + std::to_string(LONGEST_RIGID_WORDS) + " allowed");
     if (isRead(kind) == kind.file.empty())
       faults.add(numbered("kinds", i) + "file = '" + kind.file +
                  "'; shapes mesh and slices have one, others none");

@@ -35,6 +35,7 @@ void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
     entry.text("name", kind.name);
     entry.text("file", kind.file);
     describe(entry, kind);
+    if (kind.shape == PlantShape::MESH) entry.text("rigid", kind.rigid);
     if (kind.shape == PlantShape::TRELLIS) kind.push.stiffness = 0.0;
     describe(entry, kind.push);
     double stage = GROWN;
@@ -186,6 +187,8 @@ std::string writeLaw(const Layout& layout) {
     if (!kind.file.empty())
       out << YAML::Key << "file" << YAML::Value << YAML::DoubleQuoted << kind.file;
     describe(writer, kind);
+    if (kind.shape == PlantShape::MESH && kind.rigid != RIGID_WORDS)
+      out << YAML::Key << "rigid" << YAML::Value << YAML::DoubleQuoted << kind.rigid;
     describe(writer, kind.push);
     out << YAML::EndMap;
   }

@@ -131,17 +131,19 @@ void LayerGrid::findCells() {
 }
 
 void LayerGrid::measureSpread() {
-  double share = 0.0, depth = 0.0, inverse = 0.0;
+  double all = 0.0, share = 0.0, depth = 0.0, inverse = 0.0;
   for (const Sample& sample : samples_) {
     const double near = interpolated(sample.column, sample.row,
                                      [&](std::size_t i) { return 1.0 / nodes_[i].depth; });
     const double freedom = interpolated(sample.column, sample.row,
                                         [&](std::size_t i) { return nodes_[i].freedom.share; });
+    all += sample.share * sample.share;
     share += (sample.share - freedom) * (sample.share - freedom);
     depth += (sample.inverse_depth - near) * (sample.inverse_depth - near);
     inverse += sample.inverse_depth * sample.inverse_depth;
   }
   const double count = std::max<double>(1.0, static_cast<double>(samples_.size()));
+  share_ = std::sqrt(all / count);
   share_spread_ = std::sqrt(share / count);
   depth_spread_ = std::sqrt(depth / count);
   inverse_depth_ = std::sqrt(inverse / count);
@@ -178,9 +180,9 @@ double LayerGrid::predictedError(const Vec3& eye) const {
   // A step forward moves points by their angle from the axis, at most by that of the corner.
   const double corner =
       std::sqrt(frame_.half_width * frame_.half_width + frame_.half_height * frame_.half_height);
-  const double parallax = (across + 0.5 * corner * std::fabs(along)) * depth_spread_;
-  const double motion = motion_ * share_spread_ * inverse_depth_;
-  return std::sqrt(parallax * parallax + motion * motion);
+  const double eye_moved = across + 0.5 * corner * std::fabs(along), moved = share_ * motion_;
+  const double parallax = depth_spread_ * std::hypot(eye_moved, moved);
+  return std::hypot(parallax, motion_ * share_spread_ * inverse_depth_);
 }
 
 }  // namespace vegetation_sim::canopy

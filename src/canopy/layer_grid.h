@@ -87,7 +87,8 @@ class LayerGrid {
   std::vector<Sample> samples_;
   std::vector<Vec3> rest_, anchors_, moved_;
   std::vector<std::array<std::uint32_t, 4>> cells_;
-  double share_spread_{0.0}, depth_spread_{0.0}, inverse_depth_{0.0};  // root mean squares
+  // Root mean squares over the leaves.
+  double share_{0.0}, share_spread_{0.0}, depth_spread_{0.0}, inverse_depth_{0.0};
   double motion_{0.0};  // root mean square displacement for a share of 1 [m]
 };
 

@@ -40,6 +40,24 @@ TEST(Layout, IsReadWithItsGroupsKindsPlantsAndBeds) {
   }
 }
 
+// S3-14: `tiling: blend` of a scenario takes the middle of the plane for its edges.
+TEST(Layout, BlendsTheSeamsOfItsPlaneIfAsked) {
+  const auto motionAt = [](const std::string& tiling, double across) {
+    Canopy canopy(read("canopy:\n  plane: {tiling: " + tiling +
+                       "}\n  fluid: {cells: 32}\n"
+                       "  kinds: [{name: shrub}]\n  plants: [{kind: shrub}]\n"));
+    canopy.setWind(breezeFrom(Vec3(0.0, 0.5, 0.0)));
+    run(canopy, 0, 90);
+    const Plane plane(canopy.layout().motion.plane);
+    const Vec3 at = plane.centre + across * plane.width * plane.axes.right;
+    return canopy.foliage().motion(at, at);
+  };
+  const Vec3 edge = motionAt("blend", -0.5), middle = motionAt("periodic", 0.0);
+  EXPECT_GT(length(middle), 1e-3);
+  EXPECT_NEAR(length(Vec3(edge - middle)), 0.0, 1e-9 * length(middle));
+  EXPECT_GT(length(Vec3(edge - motionAt("periodic", -0.5))), 0.01 * length(middle));
+}
+
 TEST(Layout, PlantsRowsOnTheTerrain) {
   Scenario scenario = Scenario::parse(
       "canopy: {kinds: [{name: maize, shape: stalk, stage: 0.5}], rows: [{kind: maize, rows: 2,"

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "canopy/plants/form_hash.h"
 #include "vegetation_sim/canopy/plants/plant.h"
@@ -146,12 +147,18 @@ std::vector<std::uint32_t> rootsOf(const LeafMesh& mesh, const std::vector<std::
   return out;
 }
 
+std::string inSmallLetters(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
 }  // namespace
 
-bool isRigidName(const std::string& name) {
-  std::string small;
-  for (const char c : name) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const char* word : {"wood", "trunk", "bark", "branch", "stem", "twig", "bough"})
+bool isRigidName(const std::string& name, const std::string& words) {
+  const std::string small = inSmallLetters(name);
+  std::istringstream list(inSmallLetters(words));
+  for (std::string word; list >> word;)
     if (small.find(word) != std::string::npos) return true;
   return false;
 }

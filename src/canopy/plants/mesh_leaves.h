@@ -19,9 +19,9 @@ struct LeafMesh {
   std::vector<bool> rigid;  ///< of each face; empty if none is rigid
 };
 
-/// Returns whether the name of a material or an object marks rigid faces (S3-02): wood, trunk,
-/// bark, branch, stem, twig and bough.
-bool isRigidName(const std::string& name);
+/// Returns whether the name of a material or an object marks rigid faces (S3-02). @param words of
+/// PlantKind::rigid.
+bool isRigidName(const std::string& name, const std::string& words);
 
 /// Returns the index of the leaf that each face belongs to. Faces that share an edge belong
 /// together (S3-03), also if the file duplicates their corners; rigid and other faces never do.

@@ -61,7 +61,8 @@ void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
 /// Collects the triangles of a scene, each where its node puts it.
 class Collector {
  public:
-  explicit Collector(const aiScene& scene) : scene_(scene) {}
+  /// @param rigid words in the names of rigid parts.
+  Collector(const aiScene& scene, const std::string& rigid) : scene_(scene), rigid_(rigid) {}
 
   canopy::LeafMesh collect() {
     if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4(), 0);
@@ -92,8 +93,9 @@ class Collector {
       out_.vertices.emplace_back(v.x, v.y, v.z);
       out_.uv.push_back(uv ? std::array<double, 2>{uv[i].x, uv[i].y} : std::array<double, 2>{});
     }
-    const bool rigid = canopy::isRigidName(mesh.mName.C_Str()) || canopy::isRigidName(node) ||
-                       canopy::isRigidName(materialOf(mesh));
+    const bool rigid = canopy::isRigidName(mesh.mName.C_Str(), rigid_) ||
+                       canopy::isRigidName(node, rigid_) ||
+                       canopy::isRigidName(materialOf(mesh), rigid_);
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) add(mesh.mFaces[i], first, rigid);
   }
 
@@ -117,13 +119,14 @@ class Collector {
   }
 
   const aiScene& scene_;
+  const std::string& rigid_;
   bool textured_{true};
   canopy::LeafMesh out_;
 };
 
 }  // namespace
 
-canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
+canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes, const std::string& rigid) {
   const std::string ending = endingOf(name);
   const std::string bytes = readFile(resolveFile(name), LARGEST_MESH_FILE);
   checkText(name, ending, bytes);
@@ -133,7 +136,7 @@ canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes) {
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
   try {
-    return Collector(*scene).collect();
+    return Collector(*scene, rigid).collect();
   } catch (const InvalidInput& error) {
     throw InvalidInput(name + ": " + error.what());
   }

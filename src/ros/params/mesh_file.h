@@ -5,6 +5,7 @@
 #include <string>
 
 #include "canopy/plants/mesh_leaves.h"
+#include "vegetation_sim/canopy/plants/plant.h"
 
 namespace vegetation_sim {
 
@@ -13,7 +14,9 @@ namespace vegetation_sim {
 enum class MeshAxes { TURNED, KEPT };
 
 /// The faces of a Collada, OBJ, PLY or STL file, named as resolveFile() takes it, in the unit of
-/// length that the file states. @throws InvalidInput naming the file.
-canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes);
+/// length that the file states. @param rigid words in the names of rigid parts, see
+/// PlantKind::rigid. @throws InvalidInput naming the file.
+canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes,
+                          const std::string& rigid = canopy::RIGID_WORDS);
 
 }  // namespace vegetation_sim

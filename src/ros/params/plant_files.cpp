@@ -55,7 +55,8 @@ void append(const terrain::GreyImage& image, const std::string& name, canopy::Sl
 void loadForm(const std::string& file, canopy::PlantKind& kind) {
   const bool mesh = kind.shape == canopy::PlantShape::MESH;
   auto form = std::make_shared<canopy::Form>(
-      mesh ? canopy::formOf(loadMesh(file, MeshAxes::TURNED), kind.up == canopy::UpAxis::Y)
+      mesh ? canopy::formOf(loadMesh(file, MeshAxes::TURNED, kind.rigid),
+                            kind.up == canopy::UpAxis::Y)
            : canopy::formOf(loadSlices(file), kind.solid));
   kind.radius = form->radius * kind.height;
   kind.form = std::move(form);

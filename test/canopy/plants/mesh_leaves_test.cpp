@@ -73,9 +73,12 @@ TEST(FormOf, KeepsRigidPartsApart) {
   const Form form = formOf(mesh, false);
   EXPECT_EQ(form.rigid.size(), 2U);
   EXPECT_EQ(form.leaves.size(), 2U);
-  EXPECT_TRUE(isRigidName("Old_Trunk.001"));
-  EXPECT_TRUE(isRigidName("BARK"));
-  EXPECT_FALSE(isRigidName("leaves"));
+  EXPECT_TRUE(isRigidName("Old_Trunk.001", RIGID_WORDS));
+  EXPECT_TRUE(isRigidName("BARK", RIGID_WORDS));
+  EXPECT_FALSE(isRigidName("leaves", RIGID_WORDS));
+  EXPECT_TRUE(isRigidName("Holz_2", "stamm HOLZ"));
+  EXPECT_FALSE(isRigidName("trunk", "stamm holz"));
+  EXPECT_FALSE(isRigidName("trunk", " "));
 }
 
 TEST(FormOf, IsOneHighOnItsFootInTheMiddle) {

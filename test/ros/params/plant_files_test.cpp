@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "core/error_text.h"
 #include "ros/params/mesh_file.h"
@@ -148,6 +149,37 @@ TEST_F(PlantFiles, AreRefusedIfTheyAreTooLarge) {
   const std::string text = errorOf([&] { loadMesh(name, MeshAxes::TURNED); });
   EXPECT_NE(text.find("huge.obj: 536870913 bytes, more than the 536870912"), std::string::npos)
       << text;
+}
+
+// S3-02: the key `rigid` of a kind has the words for a file in another language, also in the
+// layout's message.
+TEST_F(PlantFiles, HaveRigidPartsByTheWordsOfTheirKind) {
+  std::string german = SHRUB;
+  german.replace(german.find("old_trunk"), 9, "Altholz_1");
+  write("shrub.obj", german);
+  canopy::Layout layout;
+  layout.kinds.resize(1);
+  layout.kinds[0].shape = canopy::PlantShape::MESH;
+  layout.kinds[0].file = "shrub.obj";
+  layout.plants.resize(1);
+  for (const auto& [words, rigid] : std::map<std::string, std::size_t>{
+           {canopy::RIGID_WORDS, 0}, {"stamm holz", 1}, {"", 0}, {"leaf holz", 3}}) {
+    canopy::Layout named = layout;
+    named.kinds[0].rigid = words;
+    Faults faults;
+    loadForms(named, folder_.string(), faults);
+    ASSERT_TRUE(faults.empty()) << faults.text();
+    EXPECT_EQ(named.kinds[0].form->rigid.size(), rigid) << words;
+    const canopy::Layout received = fromMsg(toMsg(named), {folder_.string()});
+    EXPECT_EQ(received.kinds[0].rigid, words);
+    EXPECT_EQ(received.kinds[0].form->rigid.size(), rigid) << words;
+  }
+  layout.kinds[0].rigid = std::string(501, 'x');
+  Faults faults;
+  check(layout, faults);
+  EXPECT_NE(faults.text().find("rigid has 501 characters, more than the 500 allowed"),
+            std::string::npos)
+      << faults.text();
 }
 
 // A layout with a mesh survives the conversion to a message, and a changed file is detected.

@@ -33,6 +33,9 @@ enum class PlantShape : int {
   TRELLIS = 7
 };
 
+constexpr const char* RIGID_WORDS = "wood trunk bark branch stem twig bough";
+constexpr std::size_t LONGEST_RIGID_WORDS = 500;  ///< [characters]
+
 /// Axis of a mesh that points up.
 enum class UpAxis { Z, Y };
 
@@ -73,10 +76,13 @@ struct PlantKind {
   Vec3 colour{Vec3(0.16, 0.34, 0.09)};        ///< red, green, blue
   Vec3 colour_young{Vec3(0.42, 0.55, 0.18)};  ///< colour of the lightest leaves
   Vec3 stem_colour{Vec3(0.30, 0.23, 0.15)};
-  UpAxis up{UpAxis::Z};              ///< vertical axis of a mesh
-  double slope{0.0};                 ///< rise of the wires of a TRELLIS per metre
-  double solid{0.5};                 ///< smallest density of a slice's cell that gets a leaf
-  std::string file;                  ///< file of a mesh, or of the first slice; scaled to `height`
+  UpAxis up{UpAxis::Z};  ///< vertical axis of a mesh
+  double slope{0.0};     ///< rise of the wires of a TRELLIS per metre
+  double solid{0.5};     ///< smallest density of a slice's cell that gets a leaf
+  std::string file;      ///< file of a mesh, or of the first slice; scaled to `height`
+  /// Words, separated by blanks: faces of a mesh whose material, object or node has one of them in
+  /// its name, in letters of any case, are rigid (S3-02).
+  std::string rigid{RIGID_WORDS};
   std::shared_ptr<const Form> form;  ///< contents of the file, shared by plants and threads
   PushLaw push;                      ///< described on its own
 };
