@@ -5,6 +5,22 @@
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {
+namespace {
+
+SinCos elevationOf(const Beams& b, int ring) {
+  const double up = b.rings > 1 ? static_cast<double>(ring) / (b.rings - 1) : 0.5;
+  return sinCos(b.elevation_low + up * (b.elevation_high - b.elevation_low));
+}
+
+SinCos azimuthOf(const Beams& b, int column) {
+  return sinCos(b.azimuth_low + (b.azimuth_high - b.azimuth_low) * column / b.columns);
+}
+
+Vec3 along(const SinCos& elevation, const SinCos& azimuth) {
+  return {elevation.cos * azimuth.cos, elevation.cos * azimuth.sin, elevation.sin};
+}
+
+}  // namespace
 
 void describe(FieldVisitor& v, Beams& b) {
   v.integer("rings", b.rings, "", {1, 512});
@@ -42,10 +58,16 @@ void check(const Lidar& lidar, const std::string& context, Faults& faults) {
 }
 
 Vec3 directionOf(const Beams& b, int ring, int column) {
-  const double up = b.rings > 1 ? static_cast<double>(ring) / (b.rings - 1) : 0.5;
-  const SinCos e = sinCos(b.elevation_low + up * (b.elevation_high - b.elevation_low));
-  const SinCos a = sinCos(b.azimuth_low + (b.azimuth_high - b.azimuth_low) * column / b.columns);
-  return {e.cos * a.cos, e.cos * a.sin, e.sin};
+  return along(elevationOf(b, ring), azimuthOf(b, column));
+}
+
+BeamDirections::BeamDirections(const Beams& b) {
+  for (int ring = 0; ring < b.rings; ++ring) rings_.push_back(elevationOf(b, ring));
+  for (int column = 0; column < b.columns; ++column) columns_.push_back(azimuthOf(b, column));
+}
+
+Vec3 BeamDirections::at(int ring, int column) const {
+  return along(rings_[static_cast<std::size_t>(ring)], columns_[static_cast<std::size_t>(column)]);
 }
 
 double timeOf(const Beams& b, int column, double turn) {

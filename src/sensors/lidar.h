@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sensors/model/sensor_model.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {
 
@@ -37,6 +39,15 @@ void check(const Lidar& lidar, const std::string& context, Faults& faults);
 
 /// Returns the unit vector of a ray in the sensor's frame.
 Vec3 directionOf(const Beams& beams, int ring, int column);
+/// The same vectors for all rays, with one angle computed for each ring and column.
+class BeamDirections {
+ public:
+  explicit BeamDirections(const Beams& beams);
+  Vec3 at(int ring, int column) const;
+
+ private:
+  std::vector<SinCos> rings_, columns_;
+};
 /// Returns when a column is measured, after the beginning of a sweep [s]. The sensor turns
 /// counter-clockwise from azimuth_low. @param turn duration of a full turn [s].
 double timeOf(const Beams& beams, int column, double turn);

@@ -25,13 +25,14 @@ std::vector<Return> sweep(const Scene& scene, const Lidar& lidar, const SensorPa
   const Beams& beams = lidar.beams;
   const Receiver receiver(lidar.model, beams.range_min, beams.range_max);
   const BeamPattern pattern(lidar.model.shape);
+  const BeamDirections directions(beams);
   const bool random = receiver.isRandom();
   const auto columns = static_cast<std::size_t>(beams.columns);
   const auto per_ray = static_cast<std::size_t>(receiver.returns());
   std::vector<Return> out(static_cast<std::size_t>(beams.rings) * columns * per_ray);
   const auto castBeam = [&](const Pose& sensor, int ring, int column, Scratch& scratch) {
     const auto i = static_cast<std::size_t>(ring) * columns + static_cast<std::size_t>(column);
-    const Vec3 axis = rotate(sensor.orientation, directionOf(beams, ring, column));
+    const Vec3 axis = rotate(sensor.orientation, directions.at(ring, column));
     scratch.hits.clear();
     for (int ray = 0; ray < pattern.rays(); ++ray)
       scratch.hits.push_back(

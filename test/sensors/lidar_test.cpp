@@ -70,6 +70,10 @@ TEST(Lidar, RaysStandWhereTheyAreAskedFor) {
   EXPECT_NEAR((directionOf(beams, 1, 2) - Vec3(1, 0, 0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((directionOf(beams, 1, 3) - Vec3(0, 1, 0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR(directionOf(beams, 0, 0).z(), -std::sin(0.2), 1e-12);
+  const BeamDirections directions(beams);
+  for (int ring = 0; ring < beams.rings; ++ring)
+    for (int column = 0; column < beams.columns; ++column)
+      EXPECT_EQ(directions.at(ring, column), directionOf(beams, ring, column));
   EXPECT_NEAR(directionOf(planeOf({beams, {}}).beams, 0, 1).z(), 0.0, 1e-15);
 }
 

@@ -63,11 +63,12 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<scan::Return>& returns, const
   std::vector<ScanPoint> points;
   points.reserve(returns.size());
   const int per_ray = scan::returnsPerRay(lidar.model), columns = lidar.beams.columns;
+  const scan::BeamDirections directions(lidar.beams);
   for (std::size_t i = 0; i < returns.size(); ++i) {
     if (!returns[i].isPoint()) continue;
     const int ray = static_cast<int>(i) / per_ray, ring = ray / columns, column = ray % columns;
     const double time = scan::timeOf(lidar.beams, column, path.seconds());
-    Vec3 place = returns[i].range * scan::directionOf(lidar.beams, ring, column);
+    Vec3 place = returns[i].range * directions.at(ring, column);
     if (path.moves() && frame == PointFrame::BEGIN) place = path.toBegin(time, place);
     points.push_back(pointOf(returns[i], place, time, ring));
   }
