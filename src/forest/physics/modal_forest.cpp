@@ -31,6 +31,11 @@ const BrokenBranches& brokenIn(const ModalContext& at, std::uint32_t id) {
   return brokenOf(at.broken ? *at.broken : NONE, id);
 }
 
+void addAmplitudes(Hash& hash, const physics::ModalState& state) {
+  for (const double a : state.amplitude) hash.add(a);
+  for (const double r : state.rate) hash.add(r);
+}
+
 ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
   const Tree tree = growTree(at.layout, id, at.terrain, brokenIn(at, id));
   return modesOfTree(tree, at.layout.species[tree.seed.species], fine);
@@ -207,9 +212,13 @@ std::size_t ModalForest::countStrained() const {
 void ModalForest::addTo(Hash& hash) const {
   for (const auto& [tree, modal_state] : modal_states_) {
     hash.add(static_cast<std::uint64_t>(tree));
-    for (const double a : modal_state.state().amplitude) hash.add(a);
-    for (const double r : modal_state.state().rate) hash.add(r);
+    addAmplitudes(hash, modal_state.state());
   }
+}
+
+void ModalForest::addTo(TreeHashes& hashes) const {
+  for (const auto& [tree, modal_state] : modal_states_)
+    addAmplitudes(hashes.of(tree, TreeHashes::MODES), modal_state.state());
 }
 
 ModalTreeState ModalForest::computeModes(const ModalContext& at, std::uint32_t tree,

@@ -93,6 +93,7 @@ class ModalForest {
   /// limited as those of other joints are.
   std::size_t countStrained() const;
   void addTo(Hash& hash) const;
+  void addTo(TreeHashes& hashes) const;
 
  private:
   void refine(const wind::Field& wind, ModalTreeState fine, ModalTreeState& modal_state);
