@@ -37,9 +37,9 @@ struct ForestSnapshot {
 /// A forest of a shard animates its own trees. Those of other shards stay at the base level, never
 /// become physical and have no modes; requests for them throw InvalidInput that names tree and
 /// owner. All shards get the same layout, wind, settings, bodies and listeners; each tree then has
-/// the same bits as in the only shard of a count of 1, as long as no limit binds that the trees of a
-/// forest share: Budget and PhysicsSettings::most_branches, the numbers of grabs, pushes and cuts,
-/// and that modes start for one tree per tick. These limits apply to each shard.
+/// the same bits as in the only shard of a count of 1, as long as no limit binds that the trees of
+/// a forest share: Budget and PhysicsSettings::most_branches, the numbers of grabs, pushes and
+/// cuts, and that modes start for one tree per tick. These limits apply to each shard.
 ///
 /// In a shard, each tree has its own times at which its physical branches are reviewed. In a forest
 /// without one, a grab, a push or a break of any tree restarts the reviews of all.

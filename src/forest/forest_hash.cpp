@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hashes of the state of a forest.
 #include "forest/forest.h"
-#include "vegetation_sim/tree/state/tree_hashes.h"
+#include "tree/state/tree_hashes.h"
 
 namespace vegetation_sim::forest {
 

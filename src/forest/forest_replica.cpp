@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tree/growth/tree_owners.h"
+
 namespace vegetation_sim::forest {
 namespace {
 
@@ -38,6 +40,10 @@ void ForestReplica::forgetState() {
   parts_.assign(1, Part());
   broken_.clear();
   why_ = "time went back";
+}
+
+std::size_t ForestReplica::shardOf(std::uint32_t tree) const {
+  return owners_->ownerOf(tree);
 }
 
 bool ForestReplica::apply(const StateUpdate& update) {
@@ -98,7 +104,7 @@ ForestReplica::Part& ForestReplica::choosePart(const StateUpdate& update) {
                std::to_string(shards()));
   faults.throwIfAny();
   if (shard.count != shards()) {
-    owners_ = TreeOwners(*layout_, shard);
+    owners_ = std::make_shared<const TreeOwners>(*layout_, shard);
     parts_.assign(shard.count, Part());
   }
   return parts_[shard.index];
@@ -116,8 +122,8 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
       faults.add(name + " is not below the " + std::to_string(trees) + " trees of the layout");
       continue;
     }
-    if (parts_.size() > 1 && owners_.ownerOf(entry.tree) != update.shard)
-      faults.add(name + " belongs to shard " + std::to_string(owners_.ownerOf(entry.tree)) +
+    if (parts_.size() > 1 && shardOf(entry.tree) != update.shard)
+      faults.add(name + " belongs to shard " + std::to_string(shardOf(entry.tree)) +
                  ", but the message is of shard " + std::to_string(update.shard));
     if (entry.promoted.empty() && entry.broken.empty()) continue;
     auto count = branch_counts_.find(entry.tree);

@@ -6,12 +6,13 @@
 #include <string>
 
 #include "vegetation_sim/forest/physics/modal_forest.h"
-#include "vegetation_sim/tree/growth/tree_owners.h"
 #include "vegetation_sim/tree/state/level_map.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::forest {
+
+class TreeOwners;
 
 /// Rebuilds the forest of forest_animator from messages: layout, wind and state in, the pose of
 /// every branch out, with equal values. A forest in shards has as many series of messages, which
@@ -92,8 +93,9 @@ class ForestReplica {
   };
 
   const Part& partOf(std::uint32_t tree) const {
-    return parts_.size() == 1 ? parts_.front() : parts_[owners_.ownerOf(tree)];
+    return parts_.size() == 1 ? parts_.front() : parts_[shardOf(tree)];
   }
+  std::size_t shardOf(std::uint32_t tree) const;
   Part& choosePart(const StateUpdate& update);
   bool fitsLayout(const StateUpdate& update);
   bool updateModes(const StateUpdate& update, Part& part);
@@ -106,7 +108,7 @@ class ForestReplica {
   std::uint64_t layout_hash_{0};
   wind::Field wind_;
   std::vector<Part> parts_{1};                          // by shard; at least one
-  TreeOwners owners_;                                   // of parts_
+  std::shared_ptr<const TreeOwners> owners_;            // of parts_; null for one
   std::map<std::uint32_t, std::size_t> branch_counts_;  // of trees that were physical once
   BrokenTrees broken_;
   std::string why_{"no key frame yet"};

@@ -12,7 +12,7 @@
 #include "dynamics/contact/contact.h"
 #include "forest/contact/contact_body.h"
 #include "tree/growth/tree_grid.h"
-#include "vegetation_sim/tree/growth/tree_owners.h"
+#include "tree/growth/tree_owners.h"
 #include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {

@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "tree/growth/tree_owners.h"
 #include "tree/lod/level_table.h"
 #include "vegetation_sim/terrain/height_map.h"
-#include "vegetation_sim/tree/growth/tree_owners.h"
 
 namespace vegetation_sim::forest {
 

@@ -1,6 +1,7 @@
 // Figures and hash of the physics of a forest.
 #include "forest/physics/forest_physics.h"
 #include "tree/growth/broken_branch.h"
+#include "tree/state/tree_hashes.h"
 #include "vegetation_sim/core/config/fields.h"
 
 namespace vegetation_sim::forest {

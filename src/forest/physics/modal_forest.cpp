@@ -6,6 +6,7 @@
 
 #include "core/archive/archive.h"
 #include "tree/physical/procedural_motion.h"
+#include "tree/state/tree_hashes.h"
 #include "vegetation_sim/tree/growth/physics_settings.h"
 
 namespace vegetation_sim::forest {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/tree/state/level_map.h"
 
+#include "tree/state/tree_hashes.h"
+
 namespace vegetation_sim::forest {
 namespace {
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/tree/state/tree_hashes.h"
+#include "tree/state/tree_hashes.h"
 
 namespace vegetation_sim::forest {
 namespace {

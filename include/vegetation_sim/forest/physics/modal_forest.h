@@ -20,6 +20,8 @@ class Archive;
 
 namespace vegetation_sim::forest {
 
+class TreeHashes;
+
 /// The surroundings of modal trees. ModalForest keeps none of it.
 struct ModalContext {
   const Layout& layout;

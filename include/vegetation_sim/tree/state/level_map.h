@@ -9,9 +9,10 @@
 
 #include "vegetation_sim/tree/motion/motion_level.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
-#include "vegetation_sim/tree/state/tree_hashes.h"
 
 namespace vegetation_sim::forest {
+
+class TreeHashes;
 
 /// Levels of all trees of a forest. Only trees that differ from the base take memory. The base may
 /// itself be in transition, so that a million trees change at the cost of one.
