@@ -14,6 +14,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "nodes/rigs/forest_rig.h"
 #include "ros/replicas/subscribed_forest.h"
@@ -197,9 +198,12 @@ TEST_F(ForestShardNodes, AreOneWorld) {
   const std::uint32_t first = treeOf(0), second = treeOf(1), third = treeOf(1, 1);
   const Vec3 left = limbOf(treeOf(0, 1)), right = limbOf(third);
   std::vector<HeldTwice> held;
+  std::set<std::uint32_t> physical;  // trees
   for (int tick = 0; tick < 120; ++tick) {
     const Vec3 way(-1.2 + 0.02 * tick, 0.0, 0.1);
     nodes_->run(left + way, right + way);
+    for (const std::uint32_t tree : nodes_->replica.replica().physicalTrees())
+      physical.insert(tree);
     if (tick == 10) held.push_back(hold(second));
     if (tick == 17) held.push_back(hold(first));
     if (tick > 20 && tick < 50 && tick % 5 == 0)
@@ -222,6 +226,8 @@ TEST_F(ForestShardNodes, AreOneWorld) {
     if (tick == 70)
       for (const HeldTwice& grab : held) release(grab);
   }
+  for (const std::uint32_t tree : {first, second, third, treeOf(0, 1)})
+    EXPECT_EQ(physical.count(tree), 1u) << tree;
   ASSERT_GE(nodes_->whole_hashes.size(), 120u);
   std::size_t moving = 0;
   for (const auto& [stamp, hash] : nodes_->whole_hashes) {
@@ -229,7 +235,8 @@ TEST_F(ForestShardNodes, AreOneWorld) {
     moving += hash != 0;
   }
   EXPECT_GT(moving, 100u);
-  const Nanoseconds now = nodes_->replica.replica().stamp();
+  const Nanoseconds now = nodes_->whole_replica.replica().stamp();
+  spinUntil("both shards", [&] { return nodes_->replica.replica().stamp() == now; });
   EXPECT_EQ(nodes_->replica.stateStatus(now).text, "In step: 2 shards");
   EXPECT_EQ(nodes_->replica.rivals(), "");
   const forest::ForestReplica &merged = nodes_->replica.replica(),
