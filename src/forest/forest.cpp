@@ -15,8 +15,12 @@ constexpr int MOST_NEW_MODES = 4;  // computed for trees that lose branches in o
 
 }  // namespace
 
-Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
-               Settings settings) {
+Forest::Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings,
+               const std::optional<Shard>& shard) {
+  Faults faults;
+  check(shard.value_or(Shard()), faults);
+  faults.throwIfAny();
+  shard_ = shard;
   snapshot_.settings = settings;
   setLayout(std::move(layout), std::move(terrain));
 }
@@ -33,8 +37,9 @@ void Forest::setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> 
   layout_ = std::move(layout);
   layout_hash_ = layout_.hash();
   grid_ = TreeGrid(layout_);
+  owners_ = TreeOwners(layout_, shard_.value_or(Shard()));
   terrain_ = std::move(terrain);
-  errors_.measure(layout_, *terrain_);
+  errors_.measure(layout_, *terrain_, owners_);
   for (TreeDetail* detail : details()) {  // the wood may have changed
     detail->modes.clear();
     detail->request.reset();
@@ -73,6 +78,8 @@ StepContext Forest::stepContext() const {
           *contacts_,
           grid_,
           *threads_,
+          owners_,
+          shard_.has_value(),
           snapshot_.stamp};
 }
 
@@ -244,24 +251,6 @@ PromotedTree Forest::promotedFor(const ListenerDetail& listener, std::uint32_t t
   return out;
 }
 
-std::uint64_t Forest::hashOf(const ForestSnapshot& snapshot) const {
-  Hash out;
-  out.add(layout_hash_);
-  out.add(snapshot.wind.hash());
-  Settings settings = snapshot.settings;
-  FieldHasher hasher(out);
-  describe(hasher, settings);
-  snapshot.world.levels.addTo(out, snapshot.stamp, layout_.motion.transition);
-  snapshot.world.modes.addTo(out);
-  if (const auto& request = snapshot.world.request) {
-    out.add(std::uint64_t{request->tree});
-    out.add(std::uint64_t{request->fine});
-    out.add(static_cast<std::uint64_t>(request->due));
-  }
-  snapshot.physics.addTo(out);
-  return out.value();
-}
-
 StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   StateUpdate out;
   out.stamp = snapshot_.stamp;
@@ -269,6 +258,9 @@ StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   out.layout_hash = layout_hash_;
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
+  out.trees_hash = treesHash();
+  out.shard = shard().index;
+  out.shards = shard().count;
   out.blend = snapshot_.physics.settings().blend;
   listener.trees.addTo(out, physicalTrees(), snapshot_.physics.broken(),
                        [&](std::uint32_t id) { return promotedFor(listener, id); });

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,16 +33,30 @@ struct ForestSnapshot {
 /// the poses of any stamp follow from layout, wind and levels. Trees have three details: that of
 /// the world, which physics and the hash know, that which sensors perceive and that which displays
 /// draw. The last two affect nothing else. Not thread-safe.
+///
+/// A forest of a shard animates its own trees. Those of other shards stay at the base level, never
+/// become physical and have no modes; requests for them throw InvalidInput that names tree and
+/// owner. All shards get the same layout, wind, settings, bodies and listeners; each tree then has
+/// the same bits as in the only shard of a count of 1, as long as no limit binds that the trees of
+/// a forest share: Budget and PhysicsSettings::most_branches, the numbers of grabs, pushes and
+/// cuts, and that modes start for one tree per tick. These limits apply to each shard.
+///
+/// In a shard, each tree has its own times at which its physical branches are reviewed. In a forest
+/// without one, a grab, a push or a break of any tree restarts the reviews of all.
 class Forest {
  public:
-  /// @throws InvalidInput for a layout that check() refuses.
-  Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings);
+  /// @throws InvalidInput for a layout or a shard that check() refuses.
+  Forest(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain, Settings settings,
+         const std::optional<Shard>& shard = {});
 
   const Layout& layout() const { return layout_; }
   std::uint64_t layoutHash() const { return layout_hash_; }
   const terrain::HeightMap& terrain() const { return *terrain_; }
   const ForestSnapshot& snapshot() const { return snapshot_; }
   const TreeGrid& grid() const { return grid_; }
+  /// Returns the shard; the only one if the forest is not a shard.
+  const Shard& shard() const { return owners_.shard(); }
+  const TreeOwners& owners() const { return owners_; }
 
   void setWind(const wind::Field& wind) { snapshot_.wind = wind; }
   void setSensor(const Sensor& sensor) { snapshot_.sensors[sensor.id] = sensor; }
@@ -51,7 +66,7 @@ class Forest {
   void setLayout(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain);
   void restore(ForestSnapshot memory) { snapshot_ = std::move(memory); }
   /// The snapshot as bytes, and back with all stamps moved by `shift`. Reading needs the same
-  /// layout and terrain. @throws InvalidInput for bytes that are no state of this layout.
+  /// layout and terrain. @throws InvalidInput for bytes that are no state of this layout and shard.
   std::string archived() const;
   ForestSnapshot readArchived(std::string bytes, Nanoseconds shift = 0) const;
   /// Computes now what the first tick with a listener nearby would otherwise compute.
@@ -126,6 +141,11 @@ class Forest {
   /// nor the numbers of updates.
   std::uint64_t hash() const { return hashOf(snapshot_); }
   std::uint64_t hashOf(const ForestSnapshot& snapshot) const;
+  /// Returns the sum modulo 2^64 of a hash of each tree that has state of its own: level, modes,
+  /// physical joints, grabs, pushes, cuts, contacts and what has come off. It depends neither on
+  /// the order of the trees nor on ids of grabs, so that the sums of all shards add up to that of
+  /// one forest with all trees. Layout, wind, settings and bodies are not in it.
+  std::uint64_t treesHash() const;
 
  private:
   std::array<TreeDetail*, 3> details();
@@ -142,10 +162,12 @@ class Forest {
   PromotedTree promotedFor(const ListenerDetail& listener, std::uint32_t tree) const;
   StateUpdate updateFor(ListenerDetail& listener, bool key_frame) const;
 
+  std::optional<Shard> shard_;
   Layout layout_;
   std::uint64_t layout_hash_{0};
   std::shared_ptr<const terrain::HeightMap> terrain_;
   TreeGrid grid_;
+  TreeOwners owners_;
   TreeErrors errors_;
   std::shared_ptr<const ContactFinder> contacts_{std::make_shared<ContactFinder>()};
   std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};

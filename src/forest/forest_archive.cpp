@@ -148,6 +148,10 @@ ForestSnapshot Forest::readArchived(std::string bytes, Nanoseconds shift) const 
   ForestSnapshot out;
   archive(a, layout_, Grower(layout_, *terrain_, snapshot_, out), out);
   a.finish();
+  const auto require_owned = [&](std::uint32_t tree) { owners_.requireOwned("snapshot", tree); };
+  for (const auto& entry : out.world.levels.held()) require_owned(entry.first);
+  for (const auto& entry : out.physics.subtrees()) require_owned(entry.first);
+  for (const auto& entry : out.physics.broken()) require_owned(entry.first);
   return out;
 }
 

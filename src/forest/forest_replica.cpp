@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/forest/forest_replica.h"
 
+#include <algorithm>
+
+#include "tree/growth/tree_owners.h"
+
 namespace vegetation_sim::forest {
 namespace {
 
@@ -23,22 +27,23 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   layout_hash_ = layout.hash();
   layout_ = std::make_shared<const Layout>(std::move(layout));
   terrain_ = std::move(terrain);
-  promoted_.clear();  // its branches may be missing in the new trees
+  parts_.resize(1);
+  parts_.front().promoted.clear();  // its branches may be missing in the new trees
+  parts_.front().modes.clear();
+  parts_.front().in_sequence = false;
   branch_counts_.clear();
   broken_.clear();
-  modes_.clear();
-  in_sequence_ = false;
   why_ = "no key frame since the layout";
 }
 
 void ForestReplica::forgetState() {
-  levels_.reset({});
-  promoted_.clear();
+  parts_.assign(1, Part());
   broken_.clear();
-  modes_.clear();
-  in_sequence_ = false;
-  stamp_ = 0;
   why_ = "time went back";
+}
+
+std::size_t ForestReplica::shardOf(std::uint32_t tree) const {
+  return owners_->ownerOf(tree);
 }
 
 bool ForestReplica::apply(const StateUpdate& update) {
@@ -46,44 +51,63 @@ bool ForestReplica::apply(const StateUpdate& update) {
     why_ = "no layout yet";
     return false;
   }
+  Part& part = choosePart(update);
   if (update.layout_hash != layout_hash_) {
     why_ = "state belongs to another layout";
-    in_sequence_ = false;
+    part.in_sequence = false;
     return false;
   }
-  if (!update.key_frame && !(in_sequence_ && update.sequence == sequence_ + 1)) {
-    if (in_sequence_) why_ = "messages were lost";
-    in_sequence_ = false;
+  if (!update.key_frame && !(part.in_sequence && update.sequence == part.sequence + 1)) {
+    if (part.in_sequence) why_ = "messages were lost";
+    part.in_sequence = false;
     return false;
   }
   if (!fitsLayout(update)) {
     why_ = "the branches of its physical and broken trees are being counted";
-    in_sequence_ = false;
+    part.in_sequence = false;
     return false;
   }
   if (update.key_frame)
-    levels_.reset(update.base);
+    part.levels.reset(update.base);
   else
-    levels_.setBase(update.base);
-  if (update.key_frame) promoted_.clear();
-  updateBroken(update);
+    part.levels.setBase(update.base);
+  if (update.key_frame) part.promoted.clear();
+  updateBroken(update, part);
   for (const StateUpdate::Entry& entry : update.trees) {
     if (entry.state == update.base)
-      levels_.resetToBase(entry.tree);  // listed for its physical joints
+      part.levels.resetToBase(entry.tree);  // listed for its physical joints
     else
-      levels_.set(entry.tree, entry.state);
+      part.levels.set(entry.tree, entry.state);
     if (entry.promoted.empty())
-      promoted_.erase(entry.tree);
+      part.promoted.erase(entry.tree);
     else
-      promoted_[entry.tree] = entry.promoted;
+      part.promoted[entry.tree] = entry.promoted;
   }
-  blend_ = update.blend;
-  levels_.prune(update.stamp, layout_->motion.transition);
-  in_sequence_ = updateModes(update);
-  sequence_ = update.sequence;
-  stamp_ = update.stamp;
-  if (in_sequence_) why_.clear();
-  return in_sequence_;
+  part.blend = update.blend;
+  part.levels.prune(update.stamp, layout_->motion.transition);
+  part.in_sequence = updateModes(update, part);
+  part.sequence = update.sequence;
+  part.stamp = update.stamp;
+  if (part.in_sequence) why_.clear();
+  return part.in_sequence;
+}
+
+// Returns the part of the shard of a message. The number of shards is fixed while one is in step.
+ForestReplica::Part& ForestReplica::choosePart(const StateUpdate& update) {
+  const Shard shard{update.shard, std::max<std::uint32_t>(1, update.shards)};
+  Faults faults;
+  check(shard, faults);
+  const bool is_fixed =
+      std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_sequence; });
+  if (is_fixed && shard.count != shards())
+    faults.add("state: shards = " + std::to_string(shard.count) + ", but other messages have " +
+               std::to_string(shards()));
+  faults.throwIfAny();
+  if (shard.count != shards()) {
+    owners_ = std::make_shared<const TreeOwners>(*layout_, shard);
+    parts_.assign(shard.count, Part());
+  }
+  return parts_[shard.index];
 }
 
 // Returns false if there are too many unknown trees for one message; the next one finds them known.
@@ -98,6 +122,9 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
       faults.add(name + " is not below the " + std::to_string(trees) + " trees of the layout");
       continue;
     }
+    if (parts_.size() > 1 && shardOf(entry.tree) != update.shard)
+      faults.add(name + " belongs to shard " + std::to_string(shardOf(entry.tree)) +
+                 ", but the message is of shard " + std::to_string(update.shard));
     if (entry.promoted.empty() && entry.broken.empty()) continue;
     auto count = branch_counts_.find(entry.tree);
     if (count == branch_counts_.end()) {
@@ -124,9 +151,10 @@ bool ForestReplica::fitsLayout(const StateUpdate& update) {
 }
 
 // A tree that has lost branches has other modes from then on.
-void ForestReplica::updateBroken(const StateUpdate& update) {
+void ForestReplica::updateBroken(const StateUpdate& update, Part& part) {
   BrokenTrees now;
-  if (!update.key_frame) now = broken_;
+  for (const auto& entry : broken_)
+    if (!update.key_frame || &partOf(entry.first) != &part) now.insert(now.end(), entry);
   for (const StateUpdate::Entry& entry : update.trees) {
     if (entry.broken.empty())
       now.erase(entry.tree);
@@ -136,48 +164,48 @@ void ForestReplica::updateBroken(const StateUpdate& update) {
   for (const BrokenTrees* trees : {&broken_, &now})
     for (const auto& entry : *trees)
       if (!(brokenOf(broken_, entry.first) == brokenOf(now, entry.first)))
-        modes_.removeTree(entry.first);
+        part.modes.removeTree(entry.first);
   broken_ = std::move(now);
 }
 
 // Between key frames modes are stepped as in the forest.
-bool ForestReplica::updateModes(const StateUpdate& update) {
+bool ForestReplica::updateModes(const StateUpdate& update, Part& part) {
   std::set<std::uint32_t> published;
   for (const StateUpdate::Entry& entry : update.trees)
     if (!entry.modal.amplitude.empty()) published.insert(entry.tree);
   if (update.key_frame)
-    modes_.retain(published);
+    part.modes.retain(published);
   else
-    modes_.advance(wind_, stamp_, update.stamp);
+    part.modes.advance(wind_, part.stamp, update.stamp);
   try {
-    restoreModes(update);
+    restoreModes(update, part);
   } catch (const std::exception& error) {
     why_ = "tree in modes: " + std::string(error.what());
     return false;
   }
-  modes_.removeFaded(levels_, update.stamp, layout_->motion.transition);
+  part.modes.removeFaded(part.levels, update.stamp, layout_->motion.transition);
   return true;
 }
 
-void ForestReplica::restoreModes(const StateUpdate& update) {
+void ForestReplica::restoreModes(const StateUpdate& update, Part& part) {
   const ModalContext at{*layout_, *terrain_, wind_, &broken_};
   std::size_t at_once = fine_modes_ == FineModes::AT_ONCE ? MOST_AT_ONCE : 0;
-  bool due = update.key_frame || ModalForest::fineDue(stamp_, update.stamp);
+  bool due = update.key_frame || ModalForest::fineDue(part.stamp, update.stamp);
   for (const StateUpdate::Entry& entry : update.trees) {
     const std::size_t modes = entry.modal.amplitude.size();
     if (modes == 0) continue;
-    const bool ready = modes_.isReady(entry.tree, modes);
+    const bool ready = part.modes.isReady(entry.tree, modes);
     if (ready || at_once > 0 || due)
-      modes_.restore(at, entry.tree, entry.modal, update.stamp);
+      part.modes.restore(at, entry.tree, entry.modal, update.stamp);
     else
-      modes_.queueFineModes(entry.tree);
+      part.modes.queueFineModes(entry.tree);
     if (ready) continue;
     if (at_once > 0)
       --at_once;
     else
       due = false;
   }
-  if (due) modes_.prepareNext(at);  // used from the next key frame on
+  if (due) part.modes.prepareNext(at);  // used from the next key frame on
 }
 
 std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const {
@@ -186,14 +214,23 @@ std::vector<Pose> ForestReplica::pose(const Tree& tree, std::uint32_t id, Nanose
 }
 
 PromotedTree ForestReplica::promoted(std::uint32_t tree) const {
-  const auto found = promoted_.find(tree);
-  if (found == promoted_.end()) return {stamp_, blend_, {}};
-  return {stamp_, blend_, found->second};
+  const Part& part = partOf(tree);
+  const auto found = part.promoted.find(tree);
+  if (found == part.promoted.end()) return {part.stamp, part.blend, {}};
+  return {part.stamp, part.blend, found->second};
 }
 
 std::vector<std::uint32_t> ForestReplica::physicalTrees() const {
   std::vector<std::uint32_t> out;
-  for (const auto& entry : promoted_) out.push_back(entry.first);
+  for (const Part& part : parts_)
+    for (const auto& entry : part.promoted) out.push_back(entry.first);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Nanoseconds ForestReplica::stamp() const {
+  Nanoseconds out = parts_.front().stamp;
+  for (const Part& part : parts_) out = std::min(out, part.stamp);
   return out;
 }
 

@@ -75,5 +75,65 @@ TEST(ForestReplica, OneKeyFrameIsEnoughForManyBrokenTrees) {
   EXPECT_THROW(replica.apply(update), InvalidInput);
 }
 
+// Returns a key frame of a shard of two that has no trees.
+StateUpdate ofShard(const ForestReplica& replica, std::uint32_t shard) {
+  StateUpdate update;
+  update.layout_hash = replica.layoutHash();
+  update.stamp = REPLICA_START;
+  update.shard = shard;
+  update.shards = 2;
+  return update;
+}
+
+// A shard that loses a message waits for its next key frame; the others go on.
+TEST(ForestReplica, TracksEachShard) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(4, 10.0), flatTerrain());
+  StateUpdate first = ofShard(replica, 0), second = ofShard(replica, 1);
+  second.base = LevelState::settled(3);
+  ASSERT_TRUE(replica.apply(first));
+  EXPECT_EQ(replica.stamp(), 0) << "the second shard has not begun";
+  ASSERT_TRUE(replica.apply(second));
+  EXPECT_EQ(replica.stamp(), REPLICA_START);
+  const TreeOwners owners(replica.layout(), {0, 2});
+  for (std::uint32_t tree = 0; tree < 16; ++tree)
+    EXPECT_EQ(replica.levelOf(tree).level, owners.owns(tree) ? 0 : 3) << tree;
+  first.key_frame = second.key_frame = false;
+  first.sequence = 1;
+  second.sequence = 2;
+  first.stamp += NANOSECONDS_PER_SECOND;
+  EXPECT_TRUE(replica.apply(first));
+  EXPECT_FALSE(replica.apply(second));
+  EXPECT_EQ(replica.why(), "messages were lost");
+  EXPECT_TRUE(replica.isInStep(0));
+  EXPECT_FALSE(replica.isInStep(1));
+  EXPECT_EQ(replica.stampOf(0), first.stamp);
+  EXPECT_EQ(replica.stamp(), REPLICA_START);
+}
+
+TEST(ForestReplica, RejectsShardsThatDoNotFit) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(4, 10.0), flatTerrain());
+  ASSERT_TRUE(replica.apply(ofShard(replica, 0)));
+  const auto fault_of = [&](std::uint32_t shard, std::uint32_t shards) {
+    StateUpdate update = ofShard(replica, shard);
+    update.shards = shards;
+    return errorOf([&] { replica.apply(update); });
+  };
+  EXPECT_EQ(fault_of(1, 4), "state: shards = 4, but other messages have 2");
+  EXPECT_EQ(fault_of(0, 0), "state: shards = 1, but other messages have 2");
+  EXPECT_EQ(fault_of(2, 2), "shard: index = 2 is outside 0 to 1, because count = 2");
+  const TreeOwners owners(replica.layout(), {1, 2});
+  const std::uint32_t theirs = owners.owns(0) ? 0 : 15;
+  StateUpdate update = ofShard(replica, 0);
+  update.trees = {{theirs, LevelState::settled(2)}};
+  EXPECT_EQ(errorOf([&] { replica.apply(update); }),
+            "state: tree " + std::to_string(theirs) +
+                " belongs to shard 1, but the message is of shard 0");
+  EXPECT_TRUE(replica.isInStep(0));
+  replica.forgetState();
+  EXPECT_EQ(fault_of(1, 4), "") << "nothing is in step";
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest

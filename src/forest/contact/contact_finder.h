@@ -12,6 +12,7 @@
 #include "dynamics/contact/contact.h"
 #include "forest/contact/contact_body.h"
 #include "tree/growth/tree_grid.h"
+#include "tree/growth/tree_owners.h"
 #include "vegetation_sim/tree/motion/pose.h"
 
 namespace vegetation_sim::forest {
@@ -41,6 +42,7 @@ struct ContactScene {
   std::function<std::vector<Pose>(const Tree&, std::uint32_t tree, Nanoseconds stamp)> pose;
   const TreeGrid* grid{nullptr};  ///< of the layout; null: all trees are compared with each body
   const BrokenTrees* broken{nullptr};  ///< what has come off the trees; null: nothing
+  const TreeOwners* owners{nullptr};   ///< trees of other shards are ignored; null: there are none
 };
 
 /// The physical branches of one tree at the start of a step; link i is branches[i].

@@ -56,7 +56,7 @@ void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Na
     const Ball ball = ballOf(entry.second, from, to);
     for (const std::uint32_t tree :
          findTreesNear(scene.layout, scene.grid, scene.terrain, ball.centre, ball.radius))
-      balls[tree].push_back(ball);
+      if (!scene.owners || scene.owners->owns(tree)) balls[tree].push_back(ball);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (layout_hash_ != scene.layout_hash) trees_.clear();

@@ -26,7 +26,8 @@ void TreeErrors::measureSpecies(const Layout& layout, std::size_t species, doubl
   slowest_reference_ = std::min(slowest_reference_, layout.species[species].reference_speed);
 }
 
-void TreeErrors::measure(const Layout& layout, const terrain::HeightMap& terrain) {
+void TreeErrors::measure(const Layout& layout, const terrain::HeightMap& terrain,
+                         const TreeOwners& owners) {
   tables_.assign(layout.species.size(), LevelScales());
   extent_ = largest_omission_ = 0.0;
   slowest_reference_ = 1e9;
@@ -36,8 +37,9 @@ void TreeErrors::measure(const Layout& layout, const terrain::HeightMap& terrain
   const double relief = bounds.max_z - bounds.min_z;
   regions_.clear();
   for (std::uint32_t i = 0; i < layout.trees.size(); ++i)
-    regions_.push_back({footOf(layout.trees[i], terrain), extent_, i, 1});
+    if (owners.owns(i)) regions_.push_back({footOf(layout.trees[i], terrain), extent_, i, 1});
   for (const Tile& tile : layout.tiles) {
+    if (!owners.owns(tile.first_tree)) continue;
     const double half = 0.5 * tile.size;
     const Vec3 centre(tile.x + half, tile.y + half, terrain.height(tile.x + half, tile.y + half));
     regions_.push_back({centre, half * 1.5 + relief + extent_, tile.first_tree, tile.count});

@@ -5,14 +5,14 @@
 #include <functional>
 #include <vector>
 
+#include "tree/growth/tree_owners.h"
 #include "tree/lod/level_table.h"
 #include "vegetation_sim/terrain/height_map.h"
-#include "vegetation_sim/tree/growth/forest_layout.h"
 
 namespace vegetation_sim::forest {
 
 /// Errors of the models of all trees of a layout, measured per species and size, and the regions in
-/// which these trees stand.
+/// which the trees of a shard stand.
 class TreeErrors {
  public:
   struct Region {
@@ -21,7 +21,8 @@ class TreeErrors {
     std::uint32_t first, count;
   };
 
-  void measure(const Layout& layout, const terrain::HeightMap& terrain);
+  /// Measures all trees, and lists the regions of those that the shard of `owners` owns.
+  void measure(const Layout& layout, const terrain::HeightMap& terrain, const TreeOwners& owners);
   /// Computes the response errors of all species now, some 30 ms for each of a few sizes, instead
   /// of at the first tick with a listener nearby.
   void precompute(const Layout& layout);

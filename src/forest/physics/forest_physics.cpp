@@ -9,8 +9,6 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// Interval of the choice of physical branches, and of the start of blends back.
-constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
 /// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
 
@@ -65,11 +63,9 @@ void ForestPhysics::stepAll(const StepContext& context, Nanoseconds to) {
   const bool gap = to <= from || to - from > LONGEST_GAP;
   if (gap && !subtrees_.empty()) ++skipped_;
   const Nanoseconds start = gap ? to : from;
-  const bool review = start >= next_review_;
-  if (review) next_review_ = start + REVIEW;
-  promoteLoaded(context, start, to, review);
+  promoteLoaded(context, start, to);
   steps_ = subtrees_.empty() ? 0 : physicalSteps(start, to);
-  stepTrees({context, settings_, bodies_, {start, to, steps_}, review});
+  stepTrees({context, settings_, bodies_, {start, to, steps_}});
   breakOverloaded(context, to);
   finishTick(to);
 }
@@ -118,15 +114,32 @@ void ForestPhysics::endLeases(Nanoseconds stamp) {
   }
 }
 
-void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to,
-                                  bool review) {
+void ForestPhysics::requestReview(const StepContext& context, std::uint32_t tree) {
+  if (!context.reviews_by_tree) next_review_ = 0;
+  const auto subtree = subtrees_.find(tree);
+  if (subtree != subtrees_.end()) subtree->second.setNextReview(0);
+}
+
+// By tree, those that bodies make physical begin with the review that all such trees share, so that
+// no review depends on grabs and pushes of other trees.
+void ForestPhysics::beginReviews(const StepContext& context, Nanoseconds start) {
+  const bool is_due = start >= next_review_;
+  if (is_due && !(context.reviews_by_tree && bodies_.empty())) next_review_ = start + REVIEW;
+  for (auto& entry : subtrees_)
+    if (context.reviews_by_tree)
+      entry.second.beginTick(start);
+    else
+      entry.second.setInReview(is_due);
+}
+
+void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to) {
   BranchesOfTrees loaded;
   const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
     return pose(context, tree, id, stamp);
   };
-  context.contacts.findNear(
-      {context.layout, context.layout_hash, context.terrain, pose_tree, &context.grid, &broken_},
-      bodies_, from, to, loaded);
+  context.contacts.findNear({context.layout, context.layout_hash, context.terrain, pose_tree,
+                             &context.grid, &broken_, &context.owners},
+                            bodies_, from, to, loaded);
   near_.clear();
   for (const auto& entry : loaded) near_.push_back(entry.first);
   for (auto it = persistent_contacts_.begin(); it != persistent_contacts_.end();)
@@ -141,11 +154,15 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     if (!loaded.count(tree)) subtree.releaseJoints();
   for (auto it = refused_.begin(); it != refused_.end();)
     it = loaded.count(it->first) ? std::next(it) : refused_.erase(it);
+  for (const auto& entry : loaded)
+    if (!subtrees_.count(entry.first))
+      findOrAddSubtree(context, entry.first).setNextReview(next_review_);
+  beginReviews(context, from);
   for (const auto& [tree, branches] : loaded) {
-    PhysicalSubtree& subtree = findOrAddSubtree(context, tree);
+    PhysicalSubtree& subtree = subtrees_.at(tree);
     bool missing = false;
     for (const int branch : branches) missing = missing || !subtree.holds(branch);
-    if (review || missing) promoteInTree(context, tree, subtree, branches, from);
+    if (subtree.isInReview() || missing) promoteInTree(context, tree, subtree, branches, from);
   }
 }
 

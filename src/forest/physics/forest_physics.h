@@ -31,7 +31,9 @@ struct StepContext {
   const ContactFinder& contacts;
   const TreeGrid& grid;
   ThreadPool& threads;
-  Nanoseconds stamp;  ///< of the last tick
+  const TreeOwners& owners;  ///< trees of other shards have no physics here
+  bool reviews_by_tree;      ///< see Forest
+  Nanoseconds stamp;         ///< of the last tick
 
   TreeWind windOf(std::uint32_t tree) const {
     return {wind, levels.of(tree), layout.motion, modes.find(tree)};
@@ -78,8 +80,8 @@ void checkPush(const Layout& layout, const Tree& tree, const Push& push);
 void checkCut(const Layout& layout, const Tree& tree, const BranchCut& cut);
 
 /// Grabs, pushes and bodies that act on the trees of a forest, and the physical parts of these
-/// trees. A value: a copy is a snapshot. Requests act from the last tick on; invalid ones throw
-/// InvalidInput and change nothing.
+/// trees. A value: a copy is a snapshot. Requests act from the last tick on; invalid ones, and
+/// those for trees of another shard, throw InvalidInput and change nothing.
 class ForestPhysics {
  public:
   std::uint32_t addGrab(const StepContext& context, const Grab& grab);
@@ -127,6 +129,8 @@ class ForestPhysics {
   /// Number of trees grown so far to check and make cuts.
   std::uint64_t grownToCut() const { return grown_to_cut_; }
   void addTo(Hash& hash) const;
+  /// Adds what acts on each tree, and its physical joints.
+  void addTo(TreeHashes& hashes) const;
   /// Returns a grown tree of the layout.
   using GrowTree = std::function<std::shared_ptr<const Tree>(std::uint32_t tree)>;
   /// Writes or reads everything. @throws InvalidInput for a state that does not fit the layout.
@@ -139,9 +143,11 @@ class ForestPhysics {
   void archiveContacts(Archive& a, const Layout& layout);
   void checkRead(const Layout& layout, const GrowTree& grow) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
+  void requestReview(const StepContext& context, std::uint32_t tree);
+  void beginReviews(const StepContext& context, Nanoseconds start);
   void endLeases(Nanoseconds stamp);
   void stepAll(const StepContext& context, Nanoseconds to);
-  void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to, bool review);
+  void promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to);
   void promoteInTree(const StepContext& context, std::uint32_t tree, PhysicalSubtree& subtree,
                      const std::vector<int>& loaded, Nanoseconds stamp);
   std::vector<BranchLoad> predictLoads(std::uint32_t tree, const PhysicalSubtree& subtree) const;
@@ -181,7 +187,7 @@ class ForestPhysics {
   std::vector<Reaction> reactions_;
   std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};
-  Nanoseconds next_review_{0};
+  Nanoseconds next_review_{0};  // of all trees or, by tree, of those that bodies come near
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
   std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
   std::vector<std::uint32_t> near_;           // trees that bodies may touch in this tick, rising

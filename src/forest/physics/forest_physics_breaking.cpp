@@ -109,7 +109,7 @@ void ForestPhysics::takeOff(const StepContext& context, std::uint32_t tree, Tree
     grown_branches_ -= cached->second->skeleton.branches.size();
     grown_.erase(cached);
   }
-  next_review_ = 0;
+  requestReview(context, tree);
 }
 
 }  // namespace vegetation_sim::forest

@@ -58,6 +58,7 @@ void ForestPhysics::forgetGrown() {
 
 void ForestPhysics::cut(const StepContext& context, const BranchCut& cut) {
   if (cut.tree >= context.layout.treeCount()) checkCut(context.layout, Tree(), cut);
+  context.owners.requireOwned("cut", cut.tree);
   checkCut(context.layout, *growToCut(context, cut.tree), cut);
   if (countBroken(broken_) + cuts_.size() >= MOST_BROKEN)
     throw InvalidInput(

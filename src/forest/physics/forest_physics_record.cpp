@@ -1,9 +1,57 @@
 // Figures and hash of the physics of a forest.
 #include "forest/physics/forest_physics.h"
 #include "tree/growth/broken_branch.h"
+#include "tree/state/tree_hashes.h"
 #include "vegetation_sim/core/config/fields.h"
 
 namespace vegetation_sim::forest {
+namespace {
+
+void addRecord(Hash& hash, const BranchPoint& point) {
+  hash.add(static_cast<std::uint64_t>(point.tree));
+  hash.add(static_cast<std::uint64_t>(point.branch));
+  hash.add(point.along);
+}
+
+// All but its id.
+void addRecord(Hash& hash, const HeldGrab& grab) {
+  addRecord(hash, grab.point);
+  hash.add(grab.target);
+  hash.add(grab.last_target);
+  for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
+  if (grab.jaw_length > 0.0) {
+    hash.add(grab.jaw_length);
+    hash.add(jawDirection(grab));
+    hash.add(grab.last_direction);
+  }
+  hash.add(grab.frame);
+  hash.add(static_cast<std::uint64_t>(grab.renewed));
+}
+
+void addRecord(Hash& hash, const Push& push) {
+  addRecord(hash, push.point);
+  hash.add(push.force);
+  for (const Nanoseconds stamp : {push.until, push.from})
+    hash.add(static_cast<std::uint64_t>(stamp));
+}
+
+void addRecord(Hash& hash, const BranchCut& cut) {
+  hash.add(static_cast<std::uint64_t>(cut.tree));
+  hash.add(static_cast<std::uint64_t>(cut.branch));
+}
+
+// All but its tree.
+void addRecord(Hash& hash, const PersistentContact& contact) {
+  hash.add(contact.body);
+  hash.add(static_cast<std::uint64_t>(contact.branch));
+  hash.add(contact.normal);
+  hash.add(contact.along);
+  hash.add(contact.gap);
+  hash.add(contact.force);
+  hash.add(std::uint64_t{contact.released});
+}
+
+}  // namespace
 
 PhysicsFigures ForestPhysics::figures() const {
   PhysicsFigures out;
@@ -35,36 +83,13 @@ void ForestPhysics::addTo(Hash& hash) const {
   PhysicsSettings settings = settings_;
   FieldHasher hasher(hash);
   describe(hasher, settings);
-  const auto add = [&](const BranchPoint& point) {
-    hash.add(static_cast<std::uint64_t>(point.tree));
-    hash.add(static_cast<std::uint64_t>(point.branch));
-    hash.add(point.along);
-  };
   hash.add(static_cast<std::uint64_t>(next_grab_));
   for (const auto& [id, grab] : grabs_) {
     hash.add(static_cast<std::uint64_t>(id));
-    add(grab.point);
-    hash.add(grab.target);
-    hash.add(grab.last_target);
-    for (const double v : {grab.stiffness, grab.damping, grab.force_limit, grab.lease}) hash.add(v);
-    if (grab.jaw_length > 0.0) {
-      hash.add(grab.jaw_length);
-      hash.add(jawDirection(grab));
-      hash.add(grab.last_direction);
-    }
-    hash.add(grab.frame);
-    hash.add(static_cast<std::uint64_t>(grab.renewed));
+    addRecord(hash, grab);
   }
-  for (const Push& push : pushes_) {
-    add(push.point);
-    hash.add(push.force);
-    for (const Nanoseconds stamp : {push.until, push.from})
-      hash.add(static_cast<std::uint64_t>(stamp));
-  }
-  for (const BranchCut& cut : cuts_) {
-    hash.add(static_cast<std::uint64_t>(cut.tree));
-    hash.add(static_cast<std::uint64_t>(cut.branch));
-  }
+  for (const Push& push : pushes_) addRecord(hash, push);
+  for (const BranchCut& cut : cuts_) addRecord(hash, cut);
   forest::addTo(hash, broken_);
   for (const auto& [id, body] : bodies_) {
     hash.add(id);
@@ -78,15 +103,24 @@ void ForestPhysics::addTo(Hash& hash) const {
   for (const auto& [tree, contacts] : persistent_contacts_) {
     for (const PersistentContact& contact : contacts) {
       hash.add(static_cast<std::uint64_t>(tree));
-      hash.add(contact.body);
-      hash.add(static_cast<std::uint64_t>(contact.branch));
-      hash.add(contact.normal);
-      hash.add(contact.along);
-      hash.add(contact.gap);
-      hash.add(contact.force);
-      hash.add(std::uint64_t{contact.released});
+      addRecord(hash, contact);
     }
   }
+}
+
+void ForestPhysics::addTo(TreeHashes& hashes) const {
+  for (const auto& entry : grabs_)
+    addRecord(hashes.of(entry.second.point.tree, TreeHashes::GRAB), entry.second);
+  for (const Push& push : pushes_) addRecord(hashes.of(push.point.tree, TreeHashes::PUSH), push);
+  for (const BranchCut& cut : cuts_) addRecord(hashes.of(cut.tree, TreeHashes::CUT), cut);
+  for (const auto& [tree, pieces] : broken_)
+    for (const BrokenBranch& piece : pieces)
+      forest::addTo(hashes.of(tree, TreeHashes::BROKEN), piece);
+  for (const auto& [tree, subtree] : subtrees_)
+    if (!subtree.empty()) subtree.addTo(hashes.of(tree, TreeHashes::JOINTS));
+  for (const auto& [tree, contacts] : persistent_contacts_)
+    for (const PersistentContact& contact : contacts)
+      addRecord(hashes.of(tree, TreeHashes::CONTACT), contact);
 }
 
 }  // namespace vegetation_sim::forest

@@ -136,10 +136,11 @@ PhysicalSubtree& ForestPhysics::findOrAddSubtree(const StepContext& context, std
 std::uint32_t ForestPhysics::addGrab(const StepContext& context, const Grab& request) {
   HeldGrab grab{request};
   checkTree(context.layout, "grab", grab.point.tree);
+  context.owners.requireOwned("grab", grab.point.tree);
   if (grabs_.size() >= MOST_GRABS)
     throw InvalidInput("grab: there are " + count(grabs_.size()) + " grabs, allowed are " +
                        count(MOST_GRABS));
-  if (grab.id == 0) grab.id = next_grab_;
+  if (grab.id == 0) grab.id = nextIdOf(context.owners.shard(), next_grab_);
   if (grabs_.count(grab.id))
     throw InvalidInput("grab: id = " + count(grab.id) + " is in use, allowed is 0 for a new one");
   SubtreeGuard subtree(subtrees_, grab.point.tree,
@@ -154,7 +155,7 @@ std::uint32_t ForestPhysics::addGrab(const StepContext& context, const Grab& req
   grab.max_target_distance = reachOf(tree);
   grab.foot = tree.foot;
   grabs_[grab.id] = grab;
-  next_review_ = 0;
+  requestReview(context, grab.point.tree);
   return grab.id;
 }
 
@@ -183,6 +184,7 @@ void ForestPhysics::release(std::uint32_t id) {
 
 void ForestPhysics::push(const StepContext& context, const Push& push) {
   checkTree(context.layout, "push", push.point.tree);
+  context.owners.requireOwned("push", push.point.tree);
   if (pushes_.size() >= MOST_PUSHES)
     throw InvalidInput("push: there are " + count(pushes_.size()) + " pushes, allowed are " +
                        count(MOST_PUSHES));
@@ -192,7 +194,7 @@ void ForestPhysics::push(const StepContext& context, const Push& push) {
   checkRoom("push", push.point.tree, push.point.branch);
   subtree.accept();
   pushes_.push_back(push);
-  next_review_ = 0;
+  requestReview(context, push.point.tree);
 }
 
 void ForestPhysics::setBody(const Body& body) {
@@ -221,6 +223,7 @@ void ForestPhysics::setSettings(const PhysicsSettings& settings, Nanoseconds now
   if (other_wood)
     for (auto& entry : subtrees_) entry.second.setMaterial(settings.material);
   next_review_ = 0;
+  for (auto& entry : subtrees_) entry.second.setNextReview(0);
 }
 
 void ForestPhysics::clear() {

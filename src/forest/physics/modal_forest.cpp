@@ -6,6 +6,7 @@
 
 #include "core/archive/archive.h"
 #include "tree/physical/procedural_motion.h"
+#include "tree/state/tree_hashes.h"
 #include "vegetation_sim/tree/growth/physics_settings.h"
 
 namespace vegetation_sim::forest {
@@ -29,6 +30,11 @@ ModalTreeState modesOfTree(const Tree& tree, const Species& species, bool fine) 
 const BrokenBranches& brokenIn(const ModalContext& at, std::uint32_t id) {
   static const BrokenTrees NONE;
   return brokenOf(at.broken ? *at.broken : NONE, id);
+}
+
+void addAmplitudes(Hash& hash, const physics::ModalState& state) {
+  for (const double a : state.amplitude) hash.add(a);
+  for (const double r : state.rate) hash.add(r);
 }
 
 ModalTreeState modalStateOf(const ModalContext& at, std::uint32_t id, bool fine) {
@@ -207,9 +213,13 @@ std::size_t ModalForest::countStrained() const {
 void ModalForest::addTo(Hash& hash) const {
   for (const auto& [tree, modal_state] : modal_states_) {
     hash.add(static_cast<std::uint64_t>(tree));
-    for (const double a : modal_state.state().amplitude) hash.add(a);
-    for (const double r : modal_state.state().rate) hash.add(r);
+    addAmplitudes(hash, modal_state.state());
   }
+}
+
+void ModalForest::addTo(TreeHashes& hashes) const {
+  for (const auto& [tree, modal_state] : modal_states_)
+    addAmplitudes(hashes.of(tree, TreeHashes::MODES), modal_state.state());
 }
 
 ModalTreeState ModalForest::computeModes(const ModalContext& at, std::uint32_t tree,

@@ -26,7 +26,7 @@ void TreeSteps::run(const TickContext& tick, SubtreeScratch& scratch) {
   accumulateImpulses(run.air, run.scratch, times.from, times.from);
   for (std::size_t k = 0; k < times.count; ++k) step(run, k);
   recordGrabs(secondsBetween(times.from, times.to));
-  subtree_->demote(run.air, times.to, tick.settings, tick.review, scratch);
+  subtree_->demote(run.air, times.to, tick.settings, scratch);
 }
 
 // Forces are means over a step, so that each push has its whole impulse.

@@ -22,7 +22,6 @@ struct TickContext {
   const PhysicsSettings& settings;
   const Bodies& bodies;
   StepTimes times;
-  bool review{false};  ///< calm branches may start to blend back
 };
 
 /// A reaction of a contact, and the step in which it began.

@@ -28,7 +28,8 @@ forest::Layout designed(const forest::Layout& layout, const ForestTuning& tuning
 
 std::unique_ptr<forest::Forest> makeForest(const ForestOptions& options) {
   auto out = std::make_unique<forest::Forest>(designed(options.scene.layout, options.tuning),
-                                              options.scene.terrain, options.tuning.settings);
+                                              options.scene.terrain, options.tuning.settings,
+                                              options.shard);
   out->setPhysics(options.scene.physics);
   out->setThreads(options.threads);
   out->precompute();
@@ -269,7 +270,7 @@ void ForestAnimator::publishLayout() {
 void ForestAnimator::publishTrunks() {
   trunks_broken_ = forest_->broken();
   trunks_publisher_.publish(trunkMarkersOf(forest_->layout(), forest_->terrain(), options_.frame_id,
-                                           MOST_TRUNKS, trunks_broken_));
+                                           MOST_TRUNKS, trunks_broken_, forest_->owners()));
 }
 
 std::shared_ptr<void> createForestAnimator(const ros::NodeHandle& handle,

@@ -110,6 +110,11 @@ void ForestAnimator::followCutters(Nanoseconds stamp) {
                                 }};
   std::vector<forest::BranchCut> cuts =
       findCuts(forest_->layout(), forest_->grid(), forest_->terrain(), knives, trees);
+  cuts.erase(std::remove_if(cuts.begin(), cuts.end(),
+                            [this](const forest::BranchCut& cut) {
+                              return !forest_->owners().owns(cut.tree);
+                            }),
+             cuts.end());
   const std::size_t broken = countBroken(forest_->broken());
   const std::size_t room =
       std::min(MOST_TOOL_CUTS, forest::MOST_BROKEN - std::min(forest::MOST_BROKEN, broken));

@@ -43,6 +43,7 @@ void ForestAnimator::sendBranches(const ros::TimerEvent&) {
   std::size_t sent = 0;
   for (const int id : options_.branches_trees) {
     const auto tree = static_cast<std::uint32_t>(id);
+    if (!forest_->owners().owns(tree)) continue;
     const auto grown = cache_.get(*forest_, tree);
     sent += grown->tree.skeleton.branches.size();
     if (sent > static_cast<std::size_t>(options_.branches_budget)) {
@@ -69,9 +70,12 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("Links of robots without a shape", options_.robot.left_out.size());
   status.add("Error of shapes around meshes [mm]", 1e3 * options_.robot.mesh_error);
   const auto& memory = forest_->snapshot();
-  const std::size_t trees = forest_->layout().treeCount();
+  const std::size_t trees = forest_->owners().countOwned();
   const auto at = forest_->sensed().levels.counts(trees);
   status.add("Trees", trees);
+  status.add("Trees of all shards", forest_->layout().treeCount());
+  status.add("Shard", forest_->shard().index);
+  status.add("Shards", forest_->shard().count);
   status.add("Trees at rest", at.front());
   status.add("Trees that move by procedure", trees - at.front() - at.back());
   status.add("Trees that move in modes", at.back());

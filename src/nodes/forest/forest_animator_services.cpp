@@ -41,6 +41,7 @@ bool ForestAnimator::onGetTree(GetTree::Request& request, GetTree::Response& res
   return answer(response, [&] {
     const Nanoseconds stamp = stampOf(request.stamp);
     const auto grown = cache_.get(*forest_, request.tree);
+    forest_->owners().requireOwned("get_tree", request.tree);
     const forest::Skeleton& skeleton = grown->tree.skeleton;
     response.seed = toMsg(grown->tree.seed);
     response.species = forest_->layout().species[grown->tree.seed.species].name;
@@ -129,6 +130,7 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
                                         forest_->poseInView(grown->tree, id, stamp)};
                               });
     if (!hit) throw InvalidInput("the ray meets no branch", FaultCode::NOTHING_FOUND);
+    forest_->owners().requireOwned("pick", hit->tree);
     response.tree = hit->tree;
     response.branch = static_cast<std::uint32_t>(hit->branch);
     response.along = hit->along;
@@ -142,6 +144,7 @@ bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
 bool ForestAnimator::onSetTf(SetTf::Request& request, SetTf::Response& response) {
   answer(response, [&] {
     const auto grown = cache_.get(*forest_, request.tree);
+    forest_->owners().requireOwned("set_tf", request.tree);
     const std::size_t count = grown->tree.skeleton.branches.size();
     if (request.all) {
       request.branches.resize(count);

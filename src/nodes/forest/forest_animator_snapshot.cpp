@@ -11,7 +11,13 @@ namespace vegetation_sim {
 std::uint64_t ForestAnimator::sceneHash() const {
   forest::Layout layout = options_.scene.layout;
   layout.terrain_hash = options_.scene.terrain->hash();
-  return layout.hash();
+  const std::uint64_t whole = layout.hash();
+  if (!options_.shard) return whole;
+  Hash out;
+  for (const std::uint64_t part :
+       {whole, std::uint64_t{options_.shard->index}, std::uint64_t{options_.shard->count}})
+    out.add(part);
+  return out.value();
 }
 
 void ForestAnimator::writeState(Archive& a) const {
@@ -43,7 +49,7 @@ CheckedState ForestAnimator::readState(Archive& a) {
   // A state can be read by a forest of its layout only.
   std::optional<forest::Forest> other;
   if (layout.hash() != forest_->layoutHash())
-    other.emplace(layout, options_.scene.terrain, tuning.settings);
+    other.emplace(layout, options_.scene.terrain, tuning.settings, options_.shard);
   const forest::Forest& reader = other ? *other : *forest_;
   const auto read =
       std::make_shared<forest::ForestSnapshot>(reader.readArchived(std::move(state), a.shift()));

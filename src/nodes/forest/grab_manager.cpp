@@ -119,13 +119,16 @@ GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& sta
         return {tree, node_.forest.pose(*tree, id, node_.forest.snapshot().stamp)};
       });
   if (!found) throw InvalidInput("no branch within 2 m of point", FaultCode::NOTHING_FOUND);
+  node_.forest.owners().requireOwned("nearest", found->at.tree);
   return {found->at, found->point, Vec3::UnitZ()};
 }
 
 template <class ServiceRequest>
 GrabManager::Place GrabManager::choose(const ServiceRequest& request) const {
   if (request.nearest) return nearestTo(request.point);
-  return placeOf(request.tree, request.branch, request.along);
+  const Place out = placeOf(request.tree, request.branch, request.along);
+  node_.forest.owners().requireOwned("request", request.tree);
+  return out;
 }
 
 Vec3 GrabManager::inWorld(const geometry_msgs::PointStamped& stamped, const char* name) const {
@@ -185,7 +188,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   const Place place = choose(request);
   Request accepted{request.keep_offset != 0, event.stamp, ros::Time(), false};
   forest::Grab& grab = event.grab;
-  grab.id = last_id_ + 1;
+  grab.id = nextIdOf(node_.forest.shard(), last_id_ + 1);
   grab.point = place.at;
   grab.lease = node_.options.grab_lease;
   grab.frame = request.frame;
@@ -202,7 +205,8 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   forest::checkGrab(node_.forest.layout(), *grown(grab.point.tree), grab);
   checkRoom("grab", place, request.stamp);
   enqueue(event);
-  requests_[++last_id_] = accepted;
+  last_id_ = grab.id;
+  requests_[last_id_] = accepted;
   if (!grab.frame.empty()) node_.on_change();
   response.id = last_id_;
   response.tree = place.at.tree;
@@ -216,6 +220,12 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
 GrabManager::Request& GrabManager::find(std::uint32_t id) {
   const auto found = requests_.find(id);
   if (found != requests_.end()) return found->second;
+  const forest::Shard& shard = node_.forest.shard();
+  if (id > 0 && (id - 1) % shard.count != shard.index)
+    throw InvalidInput(
+        "id = " + std::to_string(id) + " is of shard " + std::to_string((id - 1) % shard.count) +
+            " of " + std::to_string(shard.count) + ", this is shard " + std::to_string(shard.index),
+        FaultCode::UNKNOWN);
   std::string known;
   for (const auto& entry : requests_)
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
@@ -321,6 +331,7 @@ std::string GrabManager::cut(const CutBranch::Request& request, CutBranch::Respo
     event.cut = {place.at.tree, place.at.branch};
   }
   forest::checkCut(node_.forest.layout(), *grown(event.cut.tree), event.cut);
+  node_.forest.owners().requireOwned("cut", event.cut.tree);
   const auto branch = static_cast<std::uint32_t>(event.cut.branch);
   const Place joint = placeOf(event.cut.tree, branch, 0.0);
   enqueue(event);

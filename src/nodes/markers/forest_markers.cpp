@@ -42,6 +42,7 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
     tallest = std::max(tallest, forest::LARGEST_TILED_SCALE * species.height);
   std::vector<std::pair<double, const forest::Tile*>> out;
   for (const forest::Tile& tile : forest.layout().tiles) {
+    if (!forest.owners().owns(tile.first_tree)) continue;
     const double x = tile.x + 0.5 * tile.size, y = tile.y + 0.5 * tile.size;
     const Vec3 middle(x, y, forest.terrain().height(x, y));
     out.emplace_back(tallest * largestScale(viewers, middle, 0.75 * tile.size), &tile);
@@ -55,8 +56,11 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
 
 ForestMarkers::ForestMarkers(const forest::Forest& forest, forest::TreeCache& cache, int points)
     : forest_(forest), cache_(cache) {
-  lists_.addList("bark", static_cast<std::size_t>(points) / 2 / 3 * 3);
-  lists_.addList("leaves", static_cast<std::size_t>(points) / 2 / 6 * 6);
+  // Shards publish on one topic.
+  const std::string of_shard =
+      forest.shard().count == 1 ? "" : "_" + std::to_string(forest.shard().index);
+  lists_.addList("bark" + of_shard, static_cast<std::size_t>(points) / 2 / 3 * 3);
+  lists_.addList("leaves" + of_shard, static_cast<std::size_t>(points) / 2 / 6 * 6);
 }
 
 void ForestMarkers::reset() {
@@ -74,7 +78,8 @@ void ForestMarkers::chooseTrees(std::vector<Viewpoint> viewers) {
     const double height = seed.scale * layout.species[seed.species].height;
     if (view * height >= SMALLEST_PX) order_.emplace_back(view * height, id);
   };
-  for (std::uint32_t i = 0; i < layout.trees.size(); ++i) consider(i, layout.trees[i]);
+  for (std::uint32_t i = 0; i < layout.trees.size(); ++i)
+    if (forest_.owners().owns(i)) consider(i, layout.trees[i]);
   for (const auto& [largest, tile] : tilesInOrder(forest_, viewers)) {
     keepLargest(most);
     if (largest < least_) break;

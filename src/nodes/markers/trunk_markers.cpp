@@ -25,22 +25,25 @@ double trunkHeight(const forest::TreeSeed& seed, const forest::Species& species,
 visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
                                                const terrain::HeightMap& terrain,
                                                const std::string& frame_id, std::size_t most,
-                                               const forest::BrokenTrees& broken) {
+                                               const forest::BrokenTrees& broken,
+                                               const forest::TreeOwners& owners) {
   visualization_msgs::MarkerArray out;
   visualization_msgs::Marker marker;
   marker.header.frame_id = frame_id;
   marker.ns = "trunks";
   marker.action = visualization_msgs::Marker::DELETEALL;
   marker.pose.orientation.w = 1.0;
-  out.markers.push_back(marker);
+  if (owners.shard().count == 1) out.markers.push_back(marker);  // else those of other shards too
   marker.action = visualization_msgs::Marker::ADD;
   marker.type = visualization_msgs::Marker::CYLINDER;
   marker.color.r = 0.36F;
   marker.color.g = 0.27F;
   marker.color.b = 0.19F;
   marker.color.a = 1.0F;
-  const auto trees = std::min<std::size_t>(layout.treeCount(), most);
-  for (std::uint32_t id = 0; id < trees; ++id) {
+  std::size_t left = most;
+  for (std::uint32_t id = 0; id < layout.treeCount() && left > 0; ++id) {
+    if (!owners.owns(id)) continue;
+    --left;
     const forest::TreeSeed seed = seedOf(layout, id);
     const forest::Species& species = layout.species[seed.species];
     const double scale = trunkScale(seed, species);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "tree/growth/tree_owners.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 #include "vegetation_sim/tree/growth/skeleton.h"
 
@@ -15,10 +16,12 @@ namespace vegetation_sim {
 /// after a marker that deletes those before (N14). A trunk that has broken or been cut ends at its
 /// lowest break. The id of a marker is that of its tree.
 /// @param most number of trees, those with the lowest ids. @param frame_id world frame.
-/// @param broken what has come off the trees.
+/// @param broken what has come off the trees. @param owners whose trees are drawn; of a part of all
+/// shards there is no deleting marker, which would delete the trunks of the others.
 visualization_msgs::MarkerArray trunkMarkersOf(const forest::Layout& layout,
                                                const terrain::HeightMap& terrain,
                                                const std::string& frame_id, std::size_t most,
-                                               const forest::BrokenTrees& broken);
+                                               const forest::BrokenTrees& broken,
+                                               const forest::TreeOwners& owners = {});
 
 }  // namespace vegetation_sim

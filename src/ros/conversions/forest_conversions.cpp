@@ -288,6 +288,9 @@ ForestState toMsg(const forest::StateUpdate& update) {
   out.layout_hash = update.layout_hash;
   out.wind_hash = update.wind_hash;
   out.hash = update.hash;
+  out.trees_hash = update.trees_hash;
+  out.shard = update.shard;
+  out.shards = update.shards;
   out.trees.reserve(update.trees.size());
   for (const auto& entry : update.trees) out.trees.push_back(entryToMsg(entry, update.stamp));
   return out;
@@ -307,6 +310,10 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.layout_hash = message.layout_hash;
   out.wind_hash = message.wind_hash;
   out.hash = message.hash;
+  out.trees_hash = message.trees_hash;
+  out.shard = message.shard;
+  out.shards = std::max<std::uint32_t>(1, message.shards);
+  check(forest::Shard{out.shard, out.shards}, faults);
   const auto modal = std::count_if(message.trees.begin(), message.trees.end(),
                                    [](const TreeState& tree) { return !tree.amplitude.empty(); });
   if (modal > MOST_MODAL_TREES)

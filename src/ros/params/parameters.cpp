@@ -199,6 +199,17 @@ bool Parameters::list(const char* name, YAML::Node& map) {
   return true;
 }
 
+bool Parameters::map(const char* name, YAML::Node& map) {
+  XmlRpc::XmlRpcValue found;
+  if (!find(name, found)) return false;
+  if (found.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    wrongType(name, found, "a map");
+    return false;
+  }
+  map = toYaml(found);
+  return true;
+}
+
 void Parameters::seed(const char* name, std::uint64_t& value) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;

@@ -36,6 +36,8 @@ class Parameters : public FieldVisitor {
   /// A list of maps, as a map with `name` as its one key, for the strict reader of files. It may be
   /// a map of such lists, and an entry that is text is the map {frame: text}. False: it is absent.
   bool list(const char* name, YAML::Node& map);
+  /// A map, for the strict reader of files. False: it is absent.
+  bool map(const char* name, YAML::Node& map);
   /// A whole number from 0, or text of digits for what an XML-RPC integer cannot hold.
   void seed(const char* name, std::uint64_t& value);
 

@@ -23,7 +23,11 @@ void SubscribedForest::subscribe(ros::NodeHandle handle, const Topics& topics) {
 void SubscribedForest::setLayout(const ForestLayout& message) {
   receive("forest/layout", layout_status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);
-    replica_.setLayout(fromMsg(message), loadPublishedTerrain(message.terrain));
+    forest::Layout layout = fromMsg(message);
+    // The layout of another shard, which is the same.
+    if (replica_.shards() > 1 && layout.hash() == replica_.layoutHash()) return layout_status_;
+    replica_.setLayout(std::move(layout), loadPublishedTerrain(message.terrain));
+    shard_statuses_.clear();
     frame_ = message.header.frame_id;
     ++layouts_;
     return {true, std::to_string(replica_.layout().treeCount()) + " trees of " +
@@ -43,12 +47,38 @@ void SubscribedForest::apply(const ForestState& message) {
     if (replica_.apply(fromMsg(message))) return {true, "In step"};
     return {false, "Waiting for a key frame: " + replica_.why()};
   });
+  if (replica_.shards() > 1 && message.shard < replica_.shards())
+    shard_statuses_[message.shard] = state_status_;
+}
+
+InputStatus SubscribedForest::shardStatus(std::uint32_t shard, Nanoseconds now) const {
+  if (replica_.shards() == 1) return unlessSilent(state_status_, replica_.stamp(), now);
+  const auto found = shard_statuses_.find(shard);
+  if (found == shard_statuses_.end()) return {false, "No state: its trees are at rest"};
+  return unlessSilent(found->second, replica_.stampOf(shard), now);
+}
+
+InputStatus SubscribedForest::stateStatus(Nanoseconds now) const {
+  const std::uint32_t shards = replica_.shards();
+  if (shards == 1) return shardStatus(0, now);
+  InputStatus out{true, "In step: " + std::to_string(shards) + " shards"};
+  for (std::uint32_t shard = 0; shard < shards; ++shard) {
+    const InputStatus one = shardStatus(shard, now);
+    if (one.good) continue;
+    const std::string text = "Shard " + std::to_string(shard) + ": " + one.text;
+    out = {false, out.good ? text : out.text + "; " + text};
+  }
+  return out;
 }
 
 void SubscribedForest::forgetLater(Nanoseconds now) {
   forgetDelayed(now);
-  if (!replica_.ready() || replica_.stamp() <= now) return;
+  bool is_later = false;
+  for (std::uint32_t shard = 0; shard < replica_.shards(); ++shard)
+    is_later = is_later || replica_.stampOf(shard) > now;
+  if (!replica_.ready() || !is_later) return;
   replica_.forgetState();
+  shard_statuses_.clear();
   state_status_ = {false, "Waiting for a key frame: time went back"};
 }
 

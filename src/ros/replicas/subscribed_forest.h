@@ -5,12 +5,15 @@
 #include <vegetation_sim/ForestLayout.h>
 #include <vegetation_sim/ForestState.h>
 
+#include <map>
+
 #include "ros/replicas/subscribed_wind.h"
 #include "vegetation_sim/forest/forest_replica.h"
 
 namespace vegetation_sim {
 
-/// The forest of another node, rebuilt from its layout, its state and the wind.
+/// The forest of another node, rebuilt from its layout, its state and the wind. Of a forest in
+/// shards the messages of all of them are merged.
 class SubscribedForest : public SubscribedReplica<ForestState> {
  public:
   struct Topics {
@@ -38,17 +41,22 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   /// Number of accepted layouts.
   int layouts() const { return layouts_; }
   const InputStatus& layoutStatus() const { return layout_status_; }
-  std::string rivals() const override { return SubscribedReplica::rivals() + wind_.rivals(); }
-  const InputStatus& windStatus() const { return wind_.status(); }
-  InputStatus stateStatus(Nanoseconds now) const {
-    return unlessSilent(state_status_, replica_.stamp(), now);
+  /// Each shard publishes layout and state.
+  std::string rivals() const override {
+    return describeRivals(subscribers_, replica_.shards()) + wind_.rivals();
   }
+  const InputStatus& windStatus() const { return wind_.status(); }
+  /// Returns the status of the states, of all shards. It names those that are not in use.
+  InputStatus stateStatus(Nanoseconds now) const;
+  /// Returns the status of the states of one shard. @param shard below replica().shards().
+  InputStatus shardStatus(std::uint32_t shard, Nanoseconds now) const;
 
  private:
   forest::ForestReplica replica_;
   SubscribedWind wind_;
   int layouts_{0};
   InputStatus layout_status_, state_status_;
+  std::map<std::uint32_t, InputStatus> shard_statuses_;  // of the shards that have been heard
 };
 
 }  // namespace vegetation_sim

@@ -4,11 +4,11 @@
 
 namespace vegetation_sim {
 
-std::string describeRivals(const std::vector<ros::Subscriber>& subscribers) {
+std::string describeRivals(const std::vector<ros::Subscriber>& subscribers, std::uint32_t owners) {
   std::string out;
   for (const ros::Subscriber& subscriber : subscribers) {
     const std::uint32_t count = subscriber.getNumPublishers();
-    if (count > 1)
+    if (count > owners)
       out += (out.empty() ? "" : ", ") + std::to_string(count) + " publishers of " +
              subscriber.getTopic();
   }

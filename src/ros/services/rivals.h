@@ -4,13 +4,15 @@
 
 #include <ros/subscriber.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace vegetation_sim {
 
-/// Names the topics of these subscribers that have more than one publisher, though each has one
-/// owner: the last message wins, so that two of them alternate. Empty if there are none.
-std::string describeRivals(const std::vector<ros::Subscriber>& subscribers);
+/// Names the topics of these subscribers that have more publishers than owners: the last message
+/// wins, so that two of them alternate. Empty if there are none. @param owners of each topic.
+std::string describeRivals(const std::vector<ros::Subscriber>& subscribers,
+                           std::uint32_t owners = 1);
 
 }  // namespace vegetation_sim

@@ -27,7 +27,7 @@ std::string describeMotion(const forest::ForestReplica& replica, const view::Tre
   std::array<std::size_t, forest::MODAL_LEVEL + 1> trees{};
   std::size_t physical = 0;
   for (const auto& tree : tree_set.trees()) {
-    ++trees[static_cast<std::size_t>(replica.levels().of(tree->id()).level)];
+    ++trees[static_cast<std::size_t>(replica.levelOf(tree->id()).level)];
     physical += replica.promoted(tree->id()).branches.empty() ? 0 : 1;
   }
   std::string out = std::to_string(trees.front()) + " trees at rest, moving to depth 1 to " +

@@ -32,18 +32,22 @@ std::size_t countBroken(const BrokenTrees& trees) {
   return out;
 }
 
+void addTo(Hash& hash, const BrokenBranch& piece) {
+  hash.add(static_cast<std::uint64_t>(piece.branch));
+  hash.add(static_cast<std::uint64_t>(piece.stamp));
+  hash.add(static_cast<std::uint64_t>(piece.cut));
+  hash.add(piece.pose.position);
+  const Quat& q = piece.pose.orientation;
+  for (const double part : {q.w, q.x, q.y, q.z}) hash.add(part);
+  hash.add(piece.velocity);
+  hash.add(piece.spin);
+}
+
 void addTo(Hash& hash, const BrokenTrees& trees) {
   for (const auto& [tree, pieces] : trees)
     for (const BrokenBranch& piece : pieces) {
       hash.add(static_cast<std::uint64_t>(tree));
-      hash.add(static_cast<std::uint64_t>(piece.branch));
-      hash.add(static_cast<std::uint64_t>(piece.stamp));
-      hash.add(static_cast<std::uint64_t>(piece.cut));
-      hash.add(piece.pose.position);
-      const Quat& q = piece.pose.orientation;
-      for (const double part : {q.w, q.x, q.y, q.z}) hash.add(part);
-      hash.add(piece.velocity);
-      hash.add(piece.spin);
+      addTo(hash, piece);
     }
 }
 

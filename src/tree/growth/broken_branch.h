@@ -25,6 +25,7 @@ void limitMotion(BrokenBranch& broken);
 
 std::size_t countBroken(const BrokenTrees& trees);
 void addTo(Hash& hash, const BrokenTrees& trees);
+void addTo(Hash& hash, const BrokenBranch& piece);
 /// Writes or reads all. @param trees number of trees of the layout.
 void archiveBroken(Archive& a, std::size_t trees, BrokenTrees& broken);
 /// Adds a fault for each number out of range. @param name what the fault begins with.

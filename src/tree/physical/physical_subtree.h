@@ -18,6 +18,9 @@ class Archive;
 
 namespace vegetation_sim::forest {
 
+/// Interval of the choice of physical branches, and of the start of blends back.
+constexpr Nanoseconds REVIEW = NANOSECONDS_PER_SECOND / 10;
+
 /// A physical branch.
 struct SubtreeJoint {
   int branch{0};
@@ -89,9 +92,15 @@ class PhysicalSubtree {
                       double keep, const ProceduralMotion& motion, const PhysicsSettings& settings);
   /// Marks all joints as not needed.
   void releaseJoints();
+  /// Begins a tick at `stamp`. It is a review if the next one is due; another follows after REVIEW.
+  void beginTick(Nanoseconds stamp);
+  /// Returns whether the branches that are physical are chosen anew in this tick.
+  bool isInReview() const { return in_review_; }
+  void setInReview(bool in_review) { in_review_ = in_review; }
+  void setNextReview(Nanoseconds stamp) { next_review_ = stamp; }
   /// In a review, starts blends of branches that are not needed and calm, or have waited long
   /// enough. Always ends completed blends.
-  void demote(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings, bool review,
+  void demote(const TreeWind& air, Nanoseconds stamp, const PhysicsSettings& settings,
               SubtreeScratch& scratch);
   /// Changes the duration of blends; running ones continue from their progress.
   void stretchBlends(Nanoseconds stamp, double from, double to);
@@ -184,6 +193,8 @@ class PhysicalSubtree {
   SubtreeState state_;         // with the chain of links_
   double theta_{0.5};
   Nanoseconds last_promoted_{NEVER};  // latest of joints_
+  Nanoseconds next_review_{0};
+  bool in_review_{false};
 };
 
 /// Limits of bend [rad] and rate [rad/s] of physical joints.

@@ -35,6 +35,7 @@ void PhysicalSubtree::archive(Archive& a) {
     pair("joint rate", joined.rate, FASTEST_BEND);
   });
   a.number("theta", theta_, {0.5, 1.0});
+  a.stamp("next review of a tree", next_review_);
   if (!a.reads()) return;
   std::vector<char> mask(mask_.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -24,17 +24,21 @@ double sumOfSizes(const Vec3& v) {
 
 }  // namespace
 
+void PhysicalSubtree::beginTick(Nanoseconds stamp) {
+  in_review_ = stamp >= next_review_;
+  if (in_review_) next_review_ = stamp + REVIEW;
+}
+
 void PhysicalSubtree::demote(const TreeWind& air, Nanoseconds stamp,
-                             const PhysicsSettings& settings, bool review,
-                             SubtreeScratch& scratch) {
+                             const PhysicsSettings& settings, SubtreeScratch& scratch) {
   bool waiting = false, blending = false;
   for (SubtreeJoint& joint : joints_) {
     if (joint.wanted) joint.needed = stamp;
     waiting = waiting || isWaiting(joint);
     blending = blending || joint.blend != NEVER;
   }
-  if (!(waiting && review) && !blending) return;
-  if (waiting && review) startBlends(air, stamp, settings, scratch);
+  if (!(waiting && in_review_) && !blending) return;
+  if (waiting && in_review_) startBlends(air, stamp, settings, scratch);
   const auto over = [&](const SubtreeJoint& joint) {
     return joint.blend != NEVER && secondsBetween(joint.blend, stamp) >= settings.blend;
   };

@@ -2,7 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/tree/state/level_map.h"
 
+#include "tree/state/tree_hashes.h"
+
 namespace vegetation_sim::forest {
+namespace {
+
+void addLevel(Hash& hash, const LevelState& state, Nanoseconds stamp, double transition) {
+  hash.add(static_cast<std::uint64_t>(state.level));
+  for (const double alpha : blendAt(state, stamp, transition)) hash.add(alpha);
+}
+
+}  // namespace
 
 LevelState LevelMap::of(std::uint32_t tree) const {
   const auto found = held_.find(tree);
@@ -41,18 +51,24 @@ void LevelMap::prune(Nanoseconds stamp, double transition) {
   }
 }
 
+bool LevelMap::isAtBase(const LevelState& state, Nanoseconds stamp, double transition) const {
+  return state.level == base_.level && isSettled(base_, stamp, transition) &&
+         isSettled(state, stamp, transition);
+}
+
 void LevelMap::addTo(Hash& hash, Nanoseconds stamp, double transition) const {
-  const auto add = [&](const LevelState& state) {
-    hash.add(static_cast<std::uint64_t>(state.level));
-    for (const double alpha : blendAt(state, stamp, transition)) hash.add(alpha);
-  };
-  add(base_);
-  const bool base_settled = isSettled(base_, stamp, transition);
+  addLevel(hash, base_, stamp, transition);
   for (const auto& [tree, state] : held_) {
-    if (base_settled && state.level == base_.level && isSettled(state, stamp, transition)) continue;
+    if (isAtBase(state, stamp, transition)) continue;
     hash.add(static_cast<std::uint64_t>(tree));
-    add(state);
+    addLevel(hash, state, stamp, transition);
   }
+}
+
+void LevelMap::addTo(TreeHashes& hashes, Nanoseconds stamp, double transition) const {
+  for (const auto& [tree, state] : held_)
+    if (!isAtBase(state, stamp, transition))
+      addLevel(hashes.of(tree, TreeHashes::LEVEL), state, stamp, transition);
 }
 
 }  // namespace vegetation_sim::forest

@@ -98,6 +98,9 @@ TEST(ForestConversions, ReturnAStateToTheBit) {  // S1-23, N6
   update.layout_hash = 18446744073709551615ULL;
   update.wind_hash = 2;
   update.hash = 3;
+  update.trees_hash = 4;
+  update.shard = 2;
+  update.shards = 3;
   update.trees = {{4, forest::LevelState::settled(2)}, {5000000, between()}};
   const forest::StateUpdate back = fromMsg(toMsg(update));
   EXPECT_EQ(back.stamp, update.stamp);
@@ -106,6 +109,9 @@ TEST(ForestConversions, ReturnAStateToTheBit) {  // S1-23, N6
   EXPECT_EQ(back.layout_hash, update.layout_hash);
   EXPECT_EQ(back.wind_hash, 2u);
   EXPECT_EQ(back.hash, 3u);
+  EXPECT_EQ(back.trees_hash, 4u);
+  EXPECT_EQ(back.shard, 2u);
+  EXPECT_EQ(back.shards, 3u);
   expectEqual(back.base, update.base);
   ASSERT_EQ(back.trees.size(), 2u);
   EXPECT_EQ(back.trees[1].tree, 5000000u);

@@ -55,14 +55,43 @@ TEST(SubscribedForest, ForgetsLaterStates) {
   SubscribedForest forest;
   forest.setLayout(twoByTwo());
   forest.apply(keyFrame(forest, 5 * NANOSECONDS_PER_SECOND));
-  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+  EXPECT_EQ(forest.replica().levelOf(0).level, 2);
   forest.forgetLater(5 * NANOSECONDS_PER_SECOND);
-  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+  EXPECT_EQ(forest.replica().levelOf(0).level, 2);
   forest.forgetLater(4 * NANOSECONDS_PER_SECOND);
-  EXPECT_EQ(forest.replica().levels().of(0).level, 0);
+  EXPECT_EQ(forest.replica().levelOf(0).level, 0);
   EXPECT_FALSE(forest.stateStatus(4 * NANOSECONDS_PER_SECOND).good);
   forest.apply(keyFrame(forest, 4 * NANOSECONDS_PER_SECOND));
-  EXPECT_EQ(forest.replica().levels().of(0).level, 2);
+  EXPECT_EQ(forest.replica().levelOf(0).level, 2);
+}
+
+// A shard that falls silent or loses a message is named; the others go on.
+TEST(SubscribedForest, NamesTheShardThatIsNotInUse) {
+  SubscribedForest forest;
+  forest.setLayout(twoByTwo());
+  const Nanoseconds start = 5 * NANOSECONDS_PER_SECOND;
+  const auto of_shard = [&](std::uint32_t shard, Nanoseconds stamp) {
+    ForestState out = keyFrame(forest, stamp);
+    out.shard = shard;
+    out.shards = 2;
+    return out;
+  };
+  forest.apply(of_shard(0, start));
+  EXPECT_EQ(forest.stateStatus(start).text, "Shard 1: No state: its trees are at rest");
+  forest.apply(of_shard(1, start));
+  EXPECT_EQ(forest.stateStatus(start).text, "In step: 2 shards");
+  forest.setLayout(twoByTwo());  // by the other shard
+  EXPECT_TRUE(forest.stateStatus(start).good);
+  EXPECT_EQ(forest.layouts(), 1);
+  const Nanoseconds later = start + 2 * SILENCE;
+  forest.apply(of_shard(1, later));
+  EXPECT_EQ(forest.stateStatus(later).text, "Shard 0: No message for 3 s: drawn as it was then");
+  EXPECT_TRUE(forest.shardStatus(1, later).good);
+  ForestState other = of_shard(1, later);
+  other.shards = 3;
+  forest.apply(other);
+  EXPECT_EQ(forest.shardStatus(1, later).text,
+            "Rejected a message: state: shards = 3, but other messages have 2");
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ class Archive;
 
 namespace vegetation_sim::forest {
 
+class TreeHashes;
+
 /// The surroundings of modal trees. ModalForest keeps none of it.
 struct ModalContext {
   const Layout& layout;
@@ -93,6 +95,7 @@ class ModalForest {
   /// limited as those of other joints are.
   std::size_t countStrained() const;
   void addTo(Hash& hash) const;
+  void addTo(TreeHashes& hashes) const;
 
  private:
   void refine(const wind::Field& wind, ModalTreeState fine, ModalTreeState& modal_state);

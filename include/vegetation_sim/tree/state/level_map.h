@@ -12,6 +12,8 @@
 
 namespace vegetation_sim::forest {
 
+class TreeHashes;
+
 /// Levels of all trees of a forest. Only trees that differ from the base take memory. The base may
 /// itself be in transition, so that a million trees change at the cost of one.
 class LevelMap {
@@ -37,8 +39,12 @@ class LevelMap {
   void prune(Nanoseconds stamp, double transition);
   /// Adds the levels at `stamp` to a hash, which does not depend on prune().
   void addTo(Hash& hash, Nanoseconds stamp, double transition) const;
+  /// Adds the levels of the trees that are not at the base, likewise.
+  void addTo(TreeHashes& hashes, Nanoseconds stamp, double transition) const;
 
  private:
+  bool isAtBase(const LevelState& state, Nanoseconds stamp, double transition) const;
+
   LevelState base_;
   std::map<std::uint32_t, LevelState> held_;
 };
@@ -51,6 +57,9 @@ struct StateUpdate {
   LevelState base;    ///< of all trees that are not listed
   double blend{1.5};  ///< duration of blends from physical to procedural [s]
   std::uint64_t layout_hash{0}, wind_hash{0}, hash{0};
+  std::uint64_t trees_hash{0};  ///< see Forest::treesHash()
+  /// The shard whose trees it contains, and their number. 0 or 1 shards: it contains all trees.
+  std::uint32_t shard{0}, shards{1};
   struct Entry {
     std::uint32_t tree{0};
     LevelState state;

@@ -35,7 +35,7 @@ WHOLE_NUMBERS = {
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
           'frame_id', 'frame_prefix', 'viewer_frame', 'replay', 'branches_trees',
-          'tf_promoted', 'cutters', 'bodies'}  # robot_bodies_test has more tests of bodies
+          'tf_promoted', 'cutters', 'shard', 'bodies'}  # robot_bodies_test has more tests of bodies
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -75,11 +75,12 @@ class ForestParameters(Ranges, RefusingNode):
 
     def test_wrong_types_are_refused(self):
         wrong = dict(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', branches_trees=3,
-                     tf_promoted='no', bodies=7)
+                     tf_promoted='no', shard=2, bodies=7)
         refusal = self.refusal(wrong)
         for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text',
                      'viewer_frame = ', '~replay = yes is not true or false',
                      '~tf_promoted = no is not true or false',
+                     '~shard = 2 is not a map',
                      '~branches_trees = 3 is not a list of whole numbers'):
             self.assertIn(text, refusal)
         self.assertIn('branches_trees = ', self.refusal({'branches_trees': [1, 'two']}))
@@ -108,6 +109,18 @@ class ForestParameters(Ranges, RefusingNode):
                 ([{'frame': 'a', 'height': 6}], 'cutters[0]: height = 6 m is outside 0 to 5 m'),
                 ([{'frame': 'a'}, {'frame': 'a'}], "cutters names 'a' twice"), (7, 'cutters = ')):
             self.assertIn(text, self.refusal({'cutters': cutters}))
+
+    def test_a_shard_that_cannot_be_is_refused(self):
+        for shard, text in (
+                ({'count': 0}, 'shard: count = 0 is outside 1 to 4096'),
+                ({'count': 4097}, 'shard: count = 4097 is outside 1 to 4096'),
+                ({'index': -1}, 'shard: index = -1 is outside 0 to 4095'),
+                ({'index': 2, 'count': 2},
+                 'shard: index = 2 is outside 0 to 1, because count = 2'),
+                ({'number': 2}, 'number is not a known key; known are count, index')):
+            self.assertIn(text, self.refusal({'shard': shard}))
+        self.assertIn('~replay = true is not allowed with shard/count = 2, only with 1',
+                      self.refusal({'shard': {'count': 2}, 'replay': True}))
 
     def test_faults_of_parameters_and_scenario_are_reported_together(self):
         refusal = self.refusal({'tolerance': 0, 'tf_rate': 'fast', 'lod': 3,

@@ -110,7 +110,7 @@ class ForestRebuild : public testing::Test {
       const forest::Tree tree = replica.grow(id);
       EXPECT_TRUE(published.success) << published.message;
       EXPECT_EQ(published.skeleton_hash, tree.skeleton.hash());  // S1-04
-      EXPECT_EQ(published.level, replica.levels().of(id).level);
+      EXPECT_EQ(published.level, replica.levelOf(id).level);
       const auto poses = replica.pose(tree, id, replica.stamp());
       forest::BatchPoses fast;
       forest::BatchPoser(tree).pose(replica.wind().at(replica.stamp()).relativeTo(tree.foot),
@@ -169,7 +169,7 @@ class ForestRebuild : public testing::Test {
     int between = 0;
     double bent = 0.0;
     for (std::uint32_t id = 0; id < replica.layout().treeCount(); ++id) {
-      levels.insert(replica.levels().of(id).level);
+      levels.insert(replica.levelOf(id).level);
       const Weights weights = replica.weights(id, replica.stamp());
       between += std::any_of(weights.begin(), weights.end(),
                              [](double weight) { return weight > 0.0 && weight < 1.0; });
