@@ -181,8 +181,9 @@ double LayerGrid::predictedError(const Vec3& eye) const {
   const double corner =
       std::sqrt(frame_.half_width * frame_.half_width + frame_.half_height * frame_.half_height);
   const double eye_moved = across + 0.5 * corner * std::fabs(along), moved = share_ * motion_;
-  const double parallax = depth_spread_ * std::hypot(eye_moved, moved);
-  return std::hypot(parallax, motion_ * share_spread_ * inverse_depth_);
+  const double motion = motion_ * share_spread_ * inverse_depth_;
+  return std::sqrt(depth_spread_ * depth_spread_ * (eye_moved * eye_moved + moved * moved) +
+                   motion * motion);
 }
 
 }  // namespace vegetation_sim::canopy
