@@ -117,6 +117,9 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown
 void CanopyPatch::finish(const canopy::Layout& layout, const PatchScene& scene) {
   std::stable_sort(leaves_.begin(), leaves_.end(),
                    [](const Drawn& a, const Drawn& b) { return a.order < b.order; });
+  alike_ = static_cast<std::size_t>(
+      std::count_if(leaves_.begin(), leaves_.end(),
+                    [](const Drawn& drawn) { return drawn.share == Share::ALIKE; }));
   build(layout, scene.to_sun);
   scene.node->attachObject(&leaf_batch_);
   scene.node->attachObject(&stem_batch_);
@@ -269,11 +272,6 @@ std::vector<float> CanopyPatch::placeAtRest(const std::vector<const Drawn*>& lea
   for (const Drawn* drawn : leaves)
     at = placeCorners({drawn->leaf.root, drawn->leaf.tip, drawn->leaf.side}, *drawn, 1.0, at);
   return out;
-}
-
-std::size_t CanopyPatch::leafCount(Share share) const {
-  return static_cast<std::size_t>(std::count_if(
-      leaves_.begin(), leaves_.end(), [&](const Drawn& drawn) { return drawn.share == share; }));
 }
 
 std::vector<std::size_t> CanopyPatch::alike() const {

@@ -69,11 +69,16 @@ class CanopyPatch {
   /// Calls visit(leaf, plant) for every `stride`-th leaf of a share.
   template <class Visit>
   void eachLeaf(Share share, std::size_t stride, const Visit& visit) const {
+    if (leafCount(share) == 0) return;
+    const bool mixed = leafCount(share) < leaves_.size();
     std::size_t number = 0;
-    for (const Drawn& drawn : leaves_)
-      if (drawn.share == share && number++ % stride == 0) visit(drawn.leaf, drawn.owner);
+    for (std::size_t i = 0; i < leaves_.size(); i += mixed ? 1 : stride)
+      if (leaves_[i].share == share && (!mixed || number++ % stride == 0))
+        visit(leaves_[i].leaf, leaves_[i].owner);
   }
-  std::size_t leafCount(Share share) const;
+  std::size_t leafCount(Share share) const {
+    return share == Share::ALIKE ? alike_ : leaves_.size() - alike_;
+  }
   /// Moves the leaves of a crown whose branches have their bases at `wood`.
   void move(const canopy::Foliage& foliage, const LeafedCrowns::Crown& crown,
             const std::vector<Pose>& wood, std::size_t count);
@@ -114,6 +119,7 @@ class CanopyPatch {
   Vec3 origin_, middle_{Vec3::Zero()};
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;
+  std::size_t alike_{0};  // leaves of Share::ALIKE
   std::vector<VertexPaint> leaf_paint_;
   std::vector<float> positions_;
   std::vector<float> stem_positions_;
