@@ -11,7 +11,7 @@
 
 namespace vegetation_sim::canopy {
 
-/// What a perspective picture shows.
+/// Eye, axes and angles of a perspective picture.
 struct ImageFrame {
   Vec3 eye{Vec3::Zero()};  ///< [m], world
   Axes axes;               ///< `out` points against the viewing direction

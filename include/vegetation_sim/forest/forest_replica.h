@@ -81,7 +81,7 @@ class ForestReplica {
   std::vector<Pose> pose(const Tree& tree, std::uint32_t id, Nanoseconds stamp) const;
 
  private:
-  /// What the messages of one shard give; all of them, if the forest is not in shards.
+  /// State from the messages of one shard, or from all if the forest is not in shards.
   struct Part {
     LevelMap levels;
     std::map<std::uint32_t, std::vector<PromotedBranch>> promoted;

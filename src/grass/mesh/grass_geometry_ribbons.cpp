@@ -33,7 +33,7 @@ struct alignas(64) RibbonRows {
   float flower[BLOCK]{};  // radius, 0: none [m]
 };
 
-// What all ribbons of the same number of segments have in common.
+// Data that all ribbons of the same number of segments share.
 struct RibbonPattern {
   static constexpr int ROOM = 32;  // more than a ribbon takes, so that whole vectors are copied
   explicit RibbonPattern(const RibbonPlan& plan) : segments(plan.segments()) {

@@ -57,7 +57,7 @@ class CanopyPatch {
   bool isPictured(const canopy::Foliage& foliage, const std::vector<bool>& pictured) const;
   /// Returns whether bodies have pushed a plant.
   bool isBent(const canopy::Foliage& foliage) const;
-  /// Whose leaves: whole plants that are read from a file, and all of their kind are alike, or the
+  /// Leaves of whole plants that are read from a file, since all of their kind are alike, or of the
   /// others.
   enum class Share { ALIKE, OTHERS };
   /// Returns such plants, which have leaves.
