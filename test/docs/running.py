@@ -17,6 +17,7 @@ from tf2_msgs.srv import FrameGraph
 
 from waiting import DEADLINE, wait_for
 
+NAME = '__name:='
 numbers = itertools.count()  # of the nodes that were started
 
 
@@ -75,15 +76,17 @@ def answers(name):
 
 
 def start_node(program, arguments, **parameters):
-    """Starts a node, waits until it has read its parameters, and stops it. Raises AssertionError
-    with its log if it has ended before."""
-    name = '/snippets/snippet_%d_%d_%s' % (os.getpid(), next(numbers), program)
+    """Starts a node, waits until it has read its parameters, and stops it. It has the name that the
+    arguments give it, or a new one. Raises AssertionError with its log if it has ended before."""
+    names = [word[len(NAME):] for word in arguments if word.startswith(NAME)]
+    arguments = [word for word in arguments if not word.startswith(NAME)]
+    name = '/snippets/' + (names or ['snippet_%d_%d_%s' % (os.getpid(), next(numbers), program)])[0]
     if parameters:
         rospy.set_param(name, parameters)
     path = roslib.packages.find_node('vegetation_sim', program)[0]
     with tempfile.TemporaryFile('w+') as log:
         process = subprocess.Popen(
-            [path, '__name:=' + os.path.basename(name), '__ns:=/snippets'] + arguments,
+            [path, NAME + os.path.basename(name), '__ns:=/snippets'] + arguments,
             stdout=log, stderr=log)
         try:
             wait_for(lambda: process.poll() is not None or answers(name + '/tf2_frames'), name)
