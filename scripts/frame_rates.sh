@@ -23,12 +23,8 @@ while [[ ${1:-} == --* ]]; do
   esac
   shift 2
 done
-"$ROOT/scripts/build.sh" all benches
-use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
-trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
-trap 'exit 130' INT TERM
-LP_NUM_THREADS=$(nproc) start_display
+prepare_frames
 MOST=3000000   # limit of the points that a node may publish
 UPDATE_RATE=30 # [Hz] update rate of the displays
 

@@ -93,3 +93,13 @@ start_display() {
     export XDG_RUNTIME_DIR=$WORK/runtime
   fi
 }
+
+# Builds all that rviz_frames needs, and starts a display that draws on all cores. At the end of the
+# script the launch and the display end.
+prepare_frames() {
+  "$ROOT/scripts/build.sh" all benches
+  use_space "$DEVEL"
+  trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
+  trap 'exit 130' INT TERM
+  LP_NUM_THREADS=$(nproc) start_display
+}

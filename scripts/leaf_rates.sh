@@ -19,29 +19,15 @@ while [[ ${1:-} == --* ]]; do
 done
 numbers=("$@")
 [ ${#numbers[@]} -gt 0 ] || numbers=(80000 5000000 50000000)
-"$ROOT/scripts/build.sh" all benches
-use_space "$DEVEL"
 . "$ROOT/scripts/launching.sh"
-trap 'stop_process "$launch_pid"; stop_process "$display_pid"; rm -rf "$WORK"' EXIT
-trap 'exit 130' INT TERM
-LP_NUM_THREADS=$(nproc) start_display
-
-# usage: write_scene FACES. The plants fill the same picture, in rows behind each other.
-write_scene() {
-  python3 "$ROOT/scripts/make_thicket.py" "$1" "$WORK"
-}
-
-# usage: write_view TOLERANCE
-write_view() {
-  sed "s/Picture Tolerance: .*/Picture Tolerance: $1/" "$ROOT/bench/rviz/leaves.rviz" >"$WORK/leaves.rviz"
-}
+prepare_frames
 
 for faces in "${numbers[@]}"; do
-  write_scene "$faces"
+  python3 "$ROOT/scripts/make_thicket.py" "$faces" "$WORK"
   start_roslaunch "$WORK/scene.launch"
   wait_until 120 'a message on canopy/state' topic_flows /canopy/state
   for tolerance in 0 1000; do
-    write_view $tolerance
+    sed "s/Picture Tolerance: .*/Picture Tolerance: $tolerance/" "$ROOT/bench/rviz/leaves.rviz" >"$WORK/leaves.rviz"
     say "$faces faces, $([ $tolerance = 0 ] && echo 'leaf by leaf' || echo pictures) (load $(cut -d ' ' -f 1 /proc/loadavg))"
     "$DEVEL/lib/vegetation_sim/rviz_frames" "$WORK/leaves.rviz" --settle 70 --seconds "$seconds" \
       ${pictures:+--picture "$pictures/leaves_${faces}_$tolerance.png"} 2>/dev/null | grep frames
