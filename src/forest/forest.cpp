@@ -258,7 +258,7 @@ StateUpdate Forest::updateFor(ListenerDetail& listener, bool key_frame) const {
   out.layout_hash = layout_hash_;
   out.wind_hash = snapshot_.wind.hash();
   out.hash = hash();
-  out.trees_hash = treesHash();
+  if (shard_) out.trees_hash = treesHash();
   out.shard = shard().index;
   out.shards = shard().count;
   out.blend = snapshot_.physics.settings().blend;

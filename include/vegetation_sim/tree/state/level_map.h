@@ -57,7 +57,7 @@ struct StateUpdate {
   LevelState base;    ///< of all trees that are not listed
   double blend{1.5};  ///< duration of blends from physical to procedural [s]
   std::uint64_t layout_hash{0}, wind_hash{0}, hash{0};
-  std::uint64_t trees_hash{0};  ///< see Forest::treesHash()
+  std::uint64_t trees_hash{0};  ///< see Forest::treesHash(); 0 without shards
   /// The shard whose trees it contains, and their number. 0 or 1 shards: it contains all trees.
   std::uint32_t shard{0}, shards{1};
   struct Entry {
