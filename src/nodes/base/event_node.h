@@ -134,8 +134,7 @@ class EventNode : public SavedNode<Queue, Options> {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(DiagnosticStatus::OK, "running");
     if (!clock_.hasBegun()) status.summary(DiagnosticStatus::WARN, "waiting for the clock");
-    refusals_.warn(status);
-    refused_requests_.warn(status);
+    this->warnOfRefusals(status);
     if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
     this->warnOfInterruptions(status);
@@ -146,8 +145,7 @@ class EventNode : public SavedNode<Queue, Options> {
     addDiagnostics(status);
     clock_.report(status);
     status.add("Inputs taken", this->applied_);
-    status.add("Inputs refused", refusals_.count());
-    status.add("Requests refused", refused_requests_.count());
+    this->addRefusals(status);
     status.add("Inputs lost", inputs_.losses().lost);
     status.add("Recorded events late", inputs_.losses().late);
   }

@@ -82,6 +82,16 @@ void NodeBase::stopCallbacks() {
   subscribers_.clear();
 }
 
+void NodeBase::warnOfRefusals(Status& status) {
+  refusals_.warn(status);
+  refused_requests_.warn(status);
+}
+
+void NodeBase::addRefusals(Status& status) const {
+  status.add("Inputs refused", refusals_.count());
+  status.add("Requests refused", refused_requests_.count());
+}
+
 void NodeBase::warnOfRivals(Status& status) const {
   const std::string rivals = describeRivals(owned_);
   if (!rivals.empty())

@@ -80,6 +80,10 @@ class NodeBase {
   /// Waits for the callback that runs, and lets none begin. To be called before anything that they
   /// use is destroyed.
   void stopCallbacks();
+  /// Warns of the inputs and requests refused since the last report.
+  void warnOfRefusals(Status& status);
+  /// Adds how many inputs and requests were refused.
+  void addRefusals(Status& status) const;
   /// Warns of topics with one owner that have several publishers.
   void warnOfRivals(Status& status) const;
   /// Warns of what has interrupted the node since the last report: a time without callbacks, as

@@ -103,7 +103,7 @@ bool SensorBase::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
 // Reports only what has happened since the last report.
 void SensorBase::reportProblems(Status& status) {
   const Counts counts{unplaced_, landscape_.lost(), clock_.counts()};
-  refusals_.warn(status);
+  warnOfRefusals(status);
   warnOfInterruptions(status);
   warnOfMore(status, counts.unplaced, reported_.unplaced,
              measurements_ + " without a transform of the sensor");
@@ -136,7 +136,7 @@ void SensorBase::diagnose(Status& status) {
   status.add("People", landscape_.people());
   status.add("Messages ahead of the clock", landscape_.waiting());
   clock_.report(status);
-  status.add("Inputs refused", refusals_.count());
+  addRefusals(status);
 }
 
 }  // namespace vegetation_sim

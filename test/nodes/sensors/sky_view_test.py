@@ -148,6 +148,11 @@ class SkyViewTest(unittest.TestCase):
             self.assertIn(words, answer.message)
             self.assertEqual((answer.success, answer.error_code, answer.views), (False, code, []))
 
+            def refusal(words=words):
+                status = self.scanner.status()
+                return status.level == DiagnosticStatus.WARN and words in status.message
+            wait_for(refusal, 'a warning with the words ' + words)
+
     def test_a_missing_frame_is_reported(self):
         def warning():
             self.run_tick(CLEARING, CLEARING)
