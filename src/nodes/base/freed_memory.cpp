@@ -21,6 +21,13 @@ std::size_t countFreedBytes() {
 }  // namespace
 #endif
 
+void limitFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, LARGE_BLOCK);
+  mallopt(M_ARENA_MAX, ARENAS);
+#endif
+}
+
 void releaseFreedMemory() {
 #ifdef __GLIBC__
   if (countFreedBytes() > MOST_FREED_MEMORY) malloc_trim(0);

@@ -7,9 +7,12 @@
 #include <cstdlib>
 #include <exception>
 
+#include "nodes/base/freed_memory.h"
+
 namespace vegetation_sim {
 
 int runNode(int argc, char** argv, const char* name, NodeFactory& create) {
+  limitFreedMemory();
   ros::init(argc, argv, name);
   ros::NodeHandle handle, private_handle("~");  // must outlive the log message
   try {

@@ -23,6 +23,7 @@
 #include <thread>
 #include <vector>
 
+#include "nodes/base/freed_memory.h"
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/crowd/agent_crowd.h"
 #include "nodes/forest/forest_animator.h"
@@ -150,6 +151,21 @@ double residentBytes() {
   long all = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> all >> resident;
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// glibc would take the second block from its heap, since the first one that is freed is larger.
+TEST_F(NodeEnd, LargeBlocksAreReturnedAtOnceHoweverLargeThoseBeforeWere) {
+  limitFreedMemory();
+  { const std::vector<char> largest(16 * LARGE_BLOCK); }
+  constexpr std::size_t COUNT = 100, SIZE = 2 * LARGE_BLOCK;  // more than the heap has free
+  std::vector<std::vector<char>> freed, kept;
+  for (std::size_t i = 0; i < COUNT; ++i) {
+    freed.emplace_back(SIZE, 'a');
+    kept.emplace_back(100, 'b');
+  }
+  const double full = residentBytes();
+  freed.clear();
+  EXPECT_LT(residentBytes(), full - 0.5 * COUNT * SIZE);
 }
 
 // Blocks that are kept between freed ones are what a flood of messages leaves. Where they lie
