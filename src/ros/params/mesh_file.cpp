@@ -36,9 +36,21 @@ std::string endingOf(const std::string& name) {
   return ending;
 }
 
+/// @return where the line end_header of a PLY file begins, or npos.
+std::size_t findEndOfHeader(const std::string& bytes) {
+  const std::string line = "\nend_header";
+  std::size_t found = bytes.find(line);
+  while (found != std::string::npos) {
+    const std::size_t after = found + line.size();
+    if (after < bytes.size() && (bytes[after] == '\n' || bytes[after] == '\r')) return found + 1;
+    found = bytes.find(line, after);
+  }
+  return found;
+}
+
 /// Rejects text at which assimp does not end.
 void checkText(const std::string& name, const std::string& ending, const std::string& bytes) {
-  const std::size_t header = bytes.find("end_header");
+  const std::size_t header = findEndOfHeader(bytes);
   if (ending == "ply" && header == std::string::npos)
     throw InvalidInput(name + ": no mesh: the header has no line end_header");
   const bool is_text =
