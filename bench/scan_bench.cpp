@@ -9,6 +9,7 @@
 // usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky,images]
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "options.h"
 #include "package_folder.h"
@@ -48,10 +49,15 @@ struct NamedLidar {
 
 std::vector<Ray> raysOf(const NamedLidar& lidar, const Vec3& sensor) {
   std::vector<Ray> out;
-  for (int column = 0; column < lidar.beams.columns; column += lidar.every)
-    for (int ring = 0; ring < lidar.beams.rings; ++ring)
+  for (int column = 0; column < lidar.beams.columns; ++column)
+    for (int ring = 0; column / 8 % lidar.every == 0 && ring < lidar.beams.rings; ++ring)
       out.emplace_back(sensor, directionOf(lidar.beams, ring, column));
   return out;
+}
+
+void castTiles(const Scene& scene, const std::vector<std::vector<Ray>>& tiles, std::vector<std::vector<Hit>>& out) {
+  RayCaster caster(scene, REACH);
+  for (std::size_t t = 0; t < tiles.size(); ++t) out[t] = caster.cast(tiles[t]);
 }
 
 void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& lidars, int rounds) {
@@ -62,6 +68,13 @@ void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& li
       const BinaryScene binary(*view.scene);
       const std::vector<Ray> rays = raysOf(lidar, view.sensor);
       std::vector<Hit> before(rays.size()), after(rays.size());
+      std::vector<std::vector<Ray>> tiles; std::vector<std::vector<std::size_t>> index; std::vector<std::vector<Hit>> bundled;
+      { const int R = lidar.beams.rings, C = int(rays.size()) / R; (void)R;
+        const int TC = std::getenv("TC") ? std::atoi(std::getenv("TC")) : 8;
+        const int TR = std::getenv("TR") ? std::atoi(std::getenv("TR")) : 1000;
+        for (int c = 0; c < C; c += TC) { for (int r0 = 0; r0 < R; r0 += TR) { tiles.emplace_back(); index.emplace_back();
+          for (int r = r0; r < std::min(R, r0 + TR); ++r) for (int k = c; k < std::min(C, c + TC); ++k) { index.back().push_back(std::size_t(k) * R + r); tiles.back().push_back(rays[index.back().back()]); }
+          bundled.emplace_back(tiles.back().size()); } } }
       std::vector<bench::Candidate> candidates{{"before",
                                                 [&] {
                                                   for (std::size_t i = 0; i < rays.size(); ++i)
@@ -70,13 +83,17 @@ void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& li
                                                {"after", [&] {
                                                   for (std::size_t i = 0; i < rays.size(); ++i)
                                                     after[i] = cast(*view.scene, rays[i], REACH);
-                                                }}};
+                                                }},
+                                               {"bundled", [&] { castTiles(*view.scene, tiles, bundled); }}};
       bench::timeOnProcessor(candidates, rounds);
+      std::printf("bundled %.0f ns %.2f ", 1e9 * candidates[2].seconds / rays.size(), candidates[0].seconds / candidates[2].seconds);
       int points = 0, different = 0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         points += after[i].label != Label::NONE;
         different += !same(before[i], after[i]);
       }
+      int wrong = 0; for (std::size_t t = 0; t < tiles.size(); ++t) for (std::size_t i = 0; i < tiles[t].size(); ++i) wrong += !same(bundled[t][i], before[index[t][i]]);
+      std::printf("wrong %d\n", wrong);
       const auto count = static_cast<double>(rays.size());
       const double slow = 1e9 * candidates[0].seconds / count;
       const double fast = 1e9 * candidates[1].seconds / count;

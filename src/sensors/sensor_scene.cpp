@@ -17,18 +17,46 @@ Hit castToGround(const Scene& scene, const Ray& ray, double reach) {
   return {distance, Label::GROUND, 0, -1, cosine};
 }
 
+namespace {
+
 // The grass comes last because it is marched through only up to the nearest hit.
+void castPastTrees(const Scene& scene, const Ray& ray, const FloatRay& narrow, GrassGrain grain,
+                   Hit& nearest) {
+  scene.plants.meet(ray, narrow, nearest);
+  scene.people.meet(ray, narrow, nearest);
+  if (grain == GrassGrain::BLADES)
+    scene.grass.meetBlades(ray, nearest);
+  else
+    scene.grass.meet(ray, nearest);
+}
+
+}  // namespace
+
 Hit cast(const Scene& scene, const Ray& ray, double reach, GrassGrain grain) {
   Hit out = castToGround(scene, ray, reach);
   const FloatRay narrow(ray);
   scene.trees.meet(ray, narrow, out);
-  scene.plants.meet(ray, narrow, out);
-  scene.people.meet(ray, narrow, out);
-  if (grain == GrassGrain::BLADES)
-    scene.grass.meetBlades(ray, out);
-  else
-    scene.grass.meet(ray, out);
+  castPastTrees(scene, ray, narrow, grain, out);
   return out;
+}
+
+std::vector<Hit>& RayCaster::cast(const std::vector<Ray>& rays) {
+  narrow_.clear();
+  hits_.clear();
+  for (const Ray& ray : rays) {
+    narrow_.emplace_back(ray);
+    hits_.push_back(castToGround(scene_, ray, reach_));
+  }
+  const auto end = static_cast<int>(rays.size());
+  for (int first = 0; first < end;) {
+    RayBundle bundle{rays.data() + first, narrow_.data() + first, 0};
+    bundle.count = countBundled(bundle.rays, bundle.narrow, end - first);
+    scene_.trees.meet(bundle, hits_.data() + first);
+    first += bundle.count;
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    castPastTrees(scene_, rays[i], narrow_[i], grain_, hits_[i]);
+  return hits_;
 }
 
 }  // namespace vegetation_sim::scan

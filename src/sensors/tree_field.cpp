@@ -139,6 +139,17 @@ void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
   });
 }
 
+void Trees::meet(const RayBundle& bundle, Hit* nearest) const {
+  std::vector<RankedHit> ranked;
+  ranked.reserve(RayBundle::MOST_RAYS);
+  for (int ray = 0; ray < bundle.count; ++ray) ranked.emplace_back(nearest[ray]);
+  rods_.visit(bundle, nearest, [&](int ray, std::size_t tree, std::size_t branch) {
+    ranked[static_cast<std::size_t>(ray)].offer(first_ranks_[tree] + branch, [&](Hit& hit) {
+      return trees_[tree]->meetBranch(branch, bundle.rays[ray], hit);
+    });
+  });
+}
+
 void Trees::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
   rods_.visit(ray, narrow, path.end(), [&](std::size_t tree, std::size_t branch) {
     trees_[tree]->addBranchDepth(branch, ray, path);

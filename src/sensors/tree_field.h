@@ -37,6 +37,8 @@ class Trees {
   /// Replaces `nearest` by a nearer hit on wood or leaves. Of hits at equal distances that on the
   /// tree that comes first in all(), there on the branch of the lowest index, counts.
   void meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const;
+  /// Does the same for all rays of a bundle, with one hit for each.
+  void meet(const RayBundle& bundle, Hit* nearest) const;
   void meet(const Ray& ray, Hit& nearest) const { meet(ray, FloatRay(ray), nearest); }
 
   /// Adds the optical depth of leaves to a path of light, or blocks it if there is wood.

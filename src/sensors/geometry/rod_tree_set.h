@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
+#include "sensors/geometry/bundle_walk.h"
 #include "sensors/geometry/rod_tree.h"
 
 namespace vegetation_sim::scan {
@@ -28,6 +29,26 @@ class RodTreeSet {
       meetNearestFirst(walk, next, nearest,
                        [&](int i) { meet(std::size_t{group.tree}, std::size_t{group.rods[i]}); });
     }
+  }
+
+  /// Calls meet(ray, tree, rod), which may reduce the hit of that ray, for each rod that it may hit.
+  /// @param nearest the hit of each ray of the bundle.
+  template <class Meet>
+  void visit(const RayBundle& bundle, const Hit* nearest, Meet&& meet) const {
+    BundleWalk walk(WalkedTree(nodes_, groups_, boxes_.origin(), boxes_.extent()), bundle, nearest);
+    FoundGroups found;
+    for (; findGroups(walk); walk.updateLimit())
+      for (int ray = 0; ray < bundle.count; ++ray) {
+        testFound(walk, ray, found);
+        while (found.left != 0) {
+          const RodCandidates next = nextRods(walk, ray, found);
+          if (next.lanes == 0) break;
+          const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
+          meetNearestFirst(walk.placed[ray], next, nearest[ray], [&](int i) {
+            meet(ray, std::size_t{group.tree}, std::size_t{group.rods[i]});
+          });
+        }
+      }
   }
 
  private:

@@ -51,23 +51,32 @@ struct WalkedTree {
   double extent;  ///< as that of a WideTree
 };
 
-/// A ray on its way through a tree; the nearest box is visited first.
-struct WideWalk {
-  WideWalk(const WalkedTree& tree, const Ray& ray, const FloatRay& narrow, double distance);
+/// A ray relative to the origin of a tree.
+struct PlacedRay {
+  PlacedRay() = default;  // not initialised
+  PlacedRay(const WalkedTree& tree, const Ray& ray, const FloatRay& narrow, double distance);
 
-  struct Waiting {
-    float entry;
-    std::int32_t child;
-  };
-  const WideNode* nodes;
-  const RodGroup* groups;  ///< null: the tree is of boxes alone
   const FloatRay* ray;
-  float origin[3];                      ///< of the ray, relative to that of the tree [m]
+  float origin[3];                      ///< relative to that of the tree [m]
   float near_origin[3], far_origin[3];  ///< moved so that boxes grow by the margin
   float margin;                         ///< bound of the error of places [m]
   float limit;                          ///< limitOf() the nearest hit so far
+};
+
+/// A child of a node that waits for its visit.
+struct WaitingChild {
+  float entry;
+  std::int32_t child;
+};
+
+/// A ray on its way through a tree; the nearest box is visited first.
+struct WideWalk : PlacedRay {
+  WideWalk(const WalkedTree& tree, const Ray& ray, const FloatRay& narrow, double distance);
+
+  const WideNode* nodes;
+  const RodGroup* groups;  ///< null: the tree is of boxes alone
   int count{0};
-  Waiting waiting[WideTree::MOST_WAITING];  // not initialised
+  WaitingChild waiting[WideTree::MOST_WAITING];  // not initialised
 };
 
 /// Returns the next group whose box the ray may hit, or -1.
@@ -85,14 +94,14 @@ RodCandidates nextRods(WideWalk& walk);
 /// Calls meet(item of the group), which may reduce `nearest`, for the candidates; near ones first,
 /// and not for those beyond the nearest hit.
 template <class Meet>
-void meetNearestFirst(WideWalk& walk, const RodCandidates& found, const Hit& nearest, Meet&& meet) {
+void meetNearestFirst(PlacedRay& ray, const RodCandidates& found, const Hit& nearest, Meet&& meet) {
   for (unsigned lanes = found.lanes; lanes != 0;) {
     int next = -1;
     for (int i = 0; lanes >> i != 0; ++i)
       if ((lanes >> i & 1U) != 0 && (next < 0 || found.entries[i] < found.entries[next])) next = i;
-    if (!(found.entries[next] <= walk.limit)) return;
+    if (!(found.entries[next] <= ray.limit)) return;
     meet(next);
-    walk.limit = limitOf(nearest.distance);
+    ray.limit = limitOf(nearest.distance);
     lanes &= ~(1U << next);
   }
 }
