@@ -8,8 +8,8 @@
 // in wall time.
 // usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky,images]
 
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "options.h"
 #include "package_folder.h"
@@ -44,20 +44,45 @@ struct View {
 struct NamedLidar {
   const char* name;
   Beams beams;
-  int every;  ///< of how many columns one is cast
+  int every;  ///< of how many tiles of columns one is cast
 };
 
-std::vector<Ray> raysOf(const NamedLidar& lidar, const Vec3& sensor) {
-  std::vector<Ray> out;
-  for (int column = 0; column < lidar.beams.columns; ++column)
-    for (int ring = 0; column / 8 % lidar.every == 0 && ring < lidar.beams.rings; ++ring)
-      out.emplace_back(sensor, directionOf(lidar.beams, ring, column));
+using Tiles = std::vector<std::vector<Ray>>;
+
+Tiles tilesOf(const NamedLidar& lidar, const Vec3& sensor) {
+  const Beams& beams = lidar.beams;
+  const BeamTile tile = tileOf(beams);
+  Tiles out;
+  for (int column = 0; column < beams.columns; column += lidar.every * tile.columns)
+    for (int ring = 0; ring < beams.rings; ring += tile.rings) {
+      out.emplace_back();
+      for (int r = ring; r < std::min(ring + tile.rings, beams.rings); ++r)
+        for (int c = column; c < std::min(column + tile.columns, beams.columns); ++c)
+          out.back().emplace_back(sensor, directionOf(beams, r, c));
+    }
   return out;
 }
 
-void castTiles(const Scene& scene, const std::vector<std::vector<Ray>>& tiles, std::vector<std::vector<Hit>>& out) {
+std::size_t countRays(const Tiles& tiles) {
+  std::size_t out = 0;
+  for (const std::vector<Ray>& tile : tiles) out += tile.size();
+  return out;
+}
+
+// As sweep() does.
+void castTiles(const Scene& scene, const Tiles& tiles, std::vector<Hit>& out) {
   RayCaster caster(scene, REACH);
-  for (std::size_t t = 0; t < tiles.size(); ++t) out[t] = caster.cast(tiles[t]);
+  auto next = out.begin();
+  for (const std::vector<Ray>& tile : tiles) {
+    const std::vector<Hit>& hits = caster.cast(tile);
+    next = std::copy(hits.begin(), hits.end(), next);
+  }
+}
+
+void castBefore(const BinaryScene& scene, const Tiles& tiles, std::vector<Hit>& out) {
+  auto next = out.begin();
+  for (const std::vector<Ray>& tile : tiles)
+    for (const Ray& ray : tile) *next++ = scene.cast(ray, REACH);
 }
 
 void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& lidars, int rounds) {
@@ -66,35 +91,18 @@ void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& li
   for (const View& view : views)
     for (const NamedLidar& lidar : lidars) {
       const BinaryScene binary(*view.scene);
-      const std::vector<Ray> rays = raysOf(lidar, view.sensor);
-      std::vector<Hit> before(rays.size()), after(rays.size());
-      std::vector<std::vector<Ray>> tiles; std::vector<std::vector<std::size_t>> index; std::vector<std::vector<Hit>> bundled;
-      { const int R = lidar.beams.rings, C = int(rays.size()) / R; (void)R;
-        const int TC = std::getenv("TC") ? std::atoi(std::getenv("TC")) : 8;
-        const int TR = std::getenv("TR") ? std::atoi(std::getenv("TR")) : 1000;
-        for (int c = 0; c < C; c += TC) { for (int r0 = 0; r0 < R; r0 += TR) { tiles.emplace_back(); index.emplace_back();
-          for (int r = r0; r < std::min(R, r0 + TR); ++r) for (int k = c; k < std::min(C, c + TC); ++k) { index.back().push_back(std::size_t(k) * R + r); tiles.back().push_back(rays[index.back().back()]); }
-          bundled.emplace_back(tiles.back().size()); } } }
-      std::vector<bench::Candidate> candidates{{"before",
-                                                [&] {
-                                                  for (std::size_t i = 0; i < rays.size(); ++i)
-                                                    before[i] = binary.cast(rays[i], REACH);
-                                                }},
-                                               {"after", [&] {
-                                                  for (std::size_t i = 0; i < rays.size(); ++i)
-                                                    after[i] = cast(*view.scene, rays[i], REACH);
-                                                }},
-                                               {"bundled", [&] { castTiles(*view.scene, tiles, bundled); }}};
+      const Tiles tiles = tilesOf(lidar, view.sensor);
+      std::vector<Hit> before(countRays(tiles)), after(before.size());
+      std::vector<bench::Candidate> candidates{
+          {"before", [&] { castBefore(binary, tiles, before); }},
+          {"after", [&] { castTiles(*view.scene, tiles, after); }}};
       bench::timeOnProcessor(candidates, rounds);
-      std::printf("bundled %.0f ns %.2f ", 1e9 * candidates[2].seconds / rays.size(), candidates[0].seconds / candidates[2].seconds);
       int points = 0, different = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
+      for (std::size_t i = 0; i < after.size(); ++i) {
         points += after[i].label != Label::NONE;
         different += !same(before[i], after[i]);
       }
-      int wrong = 0; for (std::size_t t = 0; t < tiles.size(); ++t) for (std::size_t i = 0; i < tiles[t].size(); ++i) wrong += !same(bundled[t][i], before[index[t][i]]);
-      std::printf("wrong %d\n", wrong);
-      const auto count = static_cast<double>(rays.size());
+      const auto count = static_cast<double>(after.size());
       const double slow = 1e9 * candidates[0].seconds / count;
       const double fast = 1e9 * candidates[1].seconds / count;
       std::printf("%-22s %-11s %7.0f ns %7.0f ns %8.2f %7.0f%% %10d\n", view.name, lidar.name, slow,
@@ -105,23 +113,23 @@ void benchRays(const std::vector<View>& views, const std::vector<NamedLidar>& li
 void benchSets(const std::vector<View>& views, const NamedLidar& lidar, int rounds) {
   std::printf("\n%-22s %-11s %10s %10s\n", "instruction set", "scene", "a ray", "different");
   for (const View& view : views) {
-    const std::vector<Ray> rays = raysOf(lidar, view.sensor);
+    const Tiles tiles = tilesOf(lidar, view.sensor);
+    const std::size_t rays = countRays(tiles);
     const std::vector<std::string> sets = instructionSets();
-    std::vector<std::vector<Hit>> hits(sets.size(), std::vector<Hit>(rays.size()));
+    std::vector<std::vector<Hit>> hits(sets.size(), std::vector<Hit>(rays));
     std::vector<bench::Candidate> candidates;
     for (std::size_t s = 0; s < sets.size(); ++s)
       candidates.push_back({sets[s], [&, s] {
                               forceInstructionSet(sets[s]);
-                              for (std::size_t i = 0; i < rays.size(); ++i)
-                                hits[s][i] = cast(*view.scene, rays[i], REACH);
+                              castTiles(*view.scene, tiles, hits[s]);
                             }});
     bench::timeOnProcessor(candidates, rounds);
     forceInstructionSet("");
     for (std::size_t s = 0; s < sets.size(); ++s) {
       int different = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i) different += !same(hits[s][i], hits[0][i]);
+      for (std::size_t i = 0; i < rays; ++i) different += !same(hits[s][i], hits[0][i]);
       std::printf("%-22s %-11s %7.0f ns %10d\n", sets[s].c_str(), view.name,
-                  1e9 * candidates[s].seconds / static_cast<double>(rays.size()), different);
+                  1e9 * candidates[s].seconds / static_cast<double>(rays), different);
     }
   }
 }

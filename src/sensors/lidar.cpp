@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/lidar.h"
 
+#include <algorithm>
+
+#include "sensors/geometry/bundle_walk.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {
@@ -68,6 +71,18 @@ BeamDirections::BeamDirections(const Beams& b) {
 
 Vec3 BeamDirections::at(int ring, int column) const {
   return along(rings_[static_cast<std::size_t>(ring)], columns_[static_cast<std::size_t>(column)]);
+}
+
+BeamTile tileOf(const Beams& b) {
+  const double across = (b.azimuth_high - b.azimuth_low) / b.columns;
+  const double up = b.rings > 1 ? (b.elevation_high - b.elevation_low) / (b.rings - 1) : 0.0;
+  BeamTile out{std::min(b.rings, RayBundle::MOST_RAYS), 1};
+  out.columns = RayBundle::MOST_RAYS / out.rings;
+  while (out.rings > 1 && out.rings * up > out.columns * across) {
+    out.rings = (out.rings + 1) / 2;
+    out.columns *= 2;
+  }
+  return out;
 }
 
 double timeOf(const Beams& b, int column, double turn) {

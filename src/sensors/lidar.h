@@ -48,6 +48,13 @@ class BeamDirections {
  private:
   std::vector<SinCos> rings_, columns_;
 };
+/// Numbers of adjoining rings and columns.
+struct BeamTile {
+  int rings, columns;
+};
+/// Returns the shape of about RayBundle::MOST_RAYS neighbouring beams that spread equally in both
+/// directions. A tile at an end may have fewer.
+BeamTile tileOf(const Beams& beams);
 /// Returns when a column is measured, after the beginning of a sweep [s]. The sensor turns
 /// counter-clockwise from azimuth_low. @param turn duration of a full turn [s].
 double timeOf(const Beams& beams, int column, double turn);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/camera/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -112,6 +113,83 @@ std::int32_t instanceOf(const Hit& hit) {
   return none ? -1 : static_cast<std::int32_t>(hit.plant);
 }
 
+constexpr int TILE_COLUMNS = 8, TILE_ROWS = RayBundle::MOST_RAYS / TILE_COLUMNS;
+
+/// Takes the pixels of images, tile by tile, in one thread.
+class ImageTaker {
+ public:
+  /// @param picture null: no colours.
+  ImageTaker(const Scene& scene, const Camera& camera, const Pose& optical, const NoiseKeys& noise,
+             const Picture* picture, Images& out)
+      : camera_(camera),
+        optical_(optical),
+        noise_(noise),
+        picture_(picture),
+        caster_(scene, camera.range_max, GrassGrain::BLADES),
+        out_(out) {}
+
+  /// Takes the tile whose first pixel is given.
+  void take(int column, int row) {
+    pixels_.clear();
+    for (int y = row; y < std::min(row + TILE_ROWS, camera_.lens.height); ++y)
+      for (int x = column; x < std::min(column + TILE_COLUMNS, camera_.lens.width); ++x)
+        pixels_.push_back({x, y});
+    sums_.assign(pixels_.size(), Vec3::Zero());
+    for (int sample = 0; sample < (picture_ ? camera_.samples : 1); ++sample) takeSample(sample);
+    if (!picture_) return;
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+      const std::size_t i = indexOf(pixels_[p]);
+      const std::optional<RayRandom> random =
+          noisy_ ? std::optional<RayRandom>(RayRandom(noise_, i)) : std::nullopt;
+      out_.colour[i] =
+          develop(camera_.photo, sums_[p] / camera_.samples, random ? &*random : nullptr);
+    }
+  }
+
+ private:
+  struct Place {
+    int column, row;
+  };
+  std::size_t indexOf(const Place& place) const {
+    return static_cast<std::size_t>(place.row) * static_cast<std::size_t>(camera_.lens.width) +
+           static_cast<std::size_t>(place.column);
+  }
+
+  // Depth and labels are those of the first sample.
+  void takeSample(int sample) {
+    rays_.clear();
+    cosines_.clear();
+    for (const Place& pixel : pixels_) {
+      const Vec3 direction = directionOf(camera_.lens, sampleOf(pixel.column, pixel.row, sample));
+      cosines_.push_back(direction.z());
+      rays_.emplace_back(optical_.position, rotate(optical_.orientation, direction));
+    }
+    const std::vector<Hit>& hits = caster_.cast(rays_);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+      if (sample == 0) record(indexOf(pixels_[p]), hits[p], cosines_[p]);
+      if (picture_) sums_[p] += picture_->radiance(rays_[p], hits[p]);
+    }
+  }
+
+  void record(std::size_t i, const Hit& hit, double cosine) {
+    if (!out_.depth.empty()) out_.depth[i] = depthOf(hit, cosine, camera_);
+    if (!out_.label.empty()) out_.label[i] = static_cast<std::uint16_t>(hit.label);
+    if (!out_.instance.empty()) out_.instance[i] = instanceOf(hit);
+  }
+
+  const Camera& camera_;
+  const Pose& optical_;
+  const NoiseKeys& noise_;
+  const Picture* picture_;
+  RayCaster caster_;
+  Images& out_;
+  const bool noisy_{camera_.photo.read_noise > 0.0 || camera_.photo.shot_noise > 0.0};
+  std::vector<Place> pixels_;
+  std::vector<Ray> rays_;
+  std::vector<double> cosines_;  ///< of the rays with the optical axis
+  std::vector<Vec3> sums_;       ///< radiance of the samples so far
+};
+
 }  // namespace
 
 Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray) {
@@ -140,9 +218,8 @@ void check(const Camera& camera, const std::string& context, Faults& faults) {
 
 Images takeImages(const Scene& scene, const Camera& camera, const Pose& optical,
                   const NoiseKeys& noise, const Wanted& wanted, ThreadPool& threads) {
-  const Lens& lens = camera.lens;
-  const auto width = static_cast<std::size_t>(lens.width);
-  const auto height = static_cast<std::size_t>(lens.height);
+  const auto width = static_cast<std::size_t>(camera.lens.width);
+  const auto height = static_cast<std::size_t>(camera.lens.height);
   Images out;
   out.colour.resize(wanted.colour ? width * height : 0);
   out.depth.resize(wanted.depth ? width * height : 0);
@@ -150,34 +227,12 @@ Images takeImages(const Scene& scene, const Camera& camera, const Pose& optical,
   out.instance.resize(wanted.instance ? width * height : 0);
   const std::optional<Picture> picture =
       wanted.colour ? std::optional<Picture>(std::in_place, scene, camera) : std::nullopt;
-  const bool noisy = camera.photo.read_noise > 0.0 || camera.photo.shot_noise > 0.0;
-  const auto rayAt = [&](int column, int row, int sample, double& cosine) {
-    const Vec3 direction = directionOf(lens, sampleOf(column, row, sample));
-    cosine = direction.z();
-    return Ray(optical.position, rotate(optical.orientation, direction));
-  };
-  const auto takePixel = [&](int column, int row) {
-    const auto i = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
-    double cosine = 1.0;
-    const Ray ray = rayAt(column, row, 0, cosine);
-    const Hit hit = castForCamera(scene, camera, ray);
-    if (wanted.depth) out.depth[i] = depthOf(hit, cosine, camera);
-    if (wanted.label) out.label[i] = static_cast<std::uint16_t>(hit.label);
-    if (wanted.instance) out.instance[i] = instanceOf(hit);
-    if (!picture) return;
-    Vec3 sum = picture->radiance(ray, hit);
-    for (int sample = 1; sample < camera.samples; ++sample) {
-      const Ray other = rayAt(column, row, sample, cosine);
-      sum += picture->radiance(other, castForCamera(scene, camera, other));
-    }
-    const std::optional<RayRandom> random =
-        noisy ? std::optional<RayRandom>(RayRandom(noise, i)) : std::nullopt;
-    out.colour[i] = develop(camera.photo, sum / camera.samples, random ? &*random : nullptr);
-  };
-  const auto stride = static_cast<int>(threads.size());
+  const auto stride = static_cast<int>(threads.size()) * TILE_ROWS;
   threads.run(threads.size(), [&](std::size_t first) {
-    for (int row = static_cast<int>(first); row < lens.height; row += stride)
-      for (int column = 0; column < lens.width; ++column) takePixel(column, row);
+    ImageTaker taker(scene, camera, optical, noise, picture ? &*picture : nullptr, out);
+    for (int row = static_cast<int>(first) * TILE_ROWS; row < camera.lens.height; row += stride)
+      for (int column = 0; column < camera.lens.width; column += TILE_COLUMNS)
+        taker.take(column, row);
   });
   return out;
 }

@@ -83,9 +83,9 @@ bool findMany(BundleWalk& walk) {
 void testMany(const BundleWalk& walk, int ray, FoundGroups& out) {
   out.left = 0;
   for (int first = 0; first < walk.found; first += WideNode::WIDTH)
-    out.left |= testBoxes(walk.placed[ray], walk.boxes[first / WideNode::WIDTH],
-                          out.entries + first)
-                << first;
+    out.left |=
+        testBoxes(walk.placed[ray], walk.boxes[first / WideNode::WIDTH], out.entries + first)
+        << first;
   out.left &= (1U << walk.found) - 1U;
 }
 
@@ -124,7 +124,7 @@ HWY_EXPORT(findMany);
 HWY_EXPORT(testMany);
 HWY_EXPORT(nextFew);
 
-constexpr double LEAST_COSINE = 0.9986;  // of the angle between the first ray and another: 3 degrees
+constexpr double LEAST_COSINE = 0.985;  // of the first ray with another: 10 degrees
 
 bool haveEqualSigns(const FloatRay& a, const FloatRay& b) {
   return std::equal(a.near_plane, a.near_plane + 3, b.near_plane);
@@ -156,7 +156,8 @@ BundleWalk::BundleWalk(const WalkedTree& tree, const RayBundle& bundle, const Hi
     for (int i = 0; i < 3; ++i) {
       const float inverse = bundle.narrow[r].inverse[i];
       const float near = placed[r].near_origin[i], far = placed[r].far_origin[i];
-      near_origin[i] = inverse < 0.f ? std::min(near_origin[i], near) : std::max(near_origin[i], near);
+      near_origin[i] =
+          inverse < 0.f ? std::min(near_origin[i], near) : std::max(near_origin[i], near);
       far_origin[i] = inverse < 0.f ? std::max(far_origin[i], far) : std::min(far_origin[i], far);
       least_inverse[i] = std::min(least_inverse[i], inverse);
       most_inverse[i] = std::max(most_inverse[i], inverse);

@@ -19,7 +19,7 @@ struct RayBundle {
 };
 
 /// Returns how many of the first of `count` rays form a bundle, at least one: components of
-/// directions have equal signs in it, and directions differ by at most a few degrees.
+/// directions have equal signs in it, and directions differ by at most 10 degrees.
 int countBundled(const Ray* rays, const FloatRay* narrow, int count);
 
 /// A bundle on its way through a tree of rods.
@@ -37,7 +37,7 @@ struct BundleWalk {
   PlacedRay placed[RayBundle::MOST_RAYS];
   // Bounds over all rays.
   int near_plane[3], far_plane[3];
-  float near_origin[3], far_origin[3];    ///< those with which a box is the largest
+  float near_origin[3], far_origin[3];  ///< those with which a box is the largest
   float least_inverse[3], most_inverse[3];
   float limit;
   // Groups that are found, with their boxes.

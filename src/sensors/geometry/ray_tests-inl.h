@@ -110,7 +110,6 @@ HWY_INLINE unsigned testRods(const PlacedRay& placed, const RodGroup& group, flo
   return bits & ((1U << group.count) - 1U);
 }
 
-
 }  // namespace vegetation_sim::scan::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -31,7 +31,8 @@ class RodTreeSet {
     }
   }
 
-  /// Calls meet(ray, tree, rod), which may reduce the hit of that ray, for each rod that it may hit.
+  /// Calls meet(ray, tree, rod), which may reduce the hit of that ray, for each rod that it may
+  /// hit.
   /// @param nearest the hit of each ray of the bundle.
   template <class Meet>
   void visit(const RayBundle& bundle, const Hit* nearest, Meet&& meet) const {
