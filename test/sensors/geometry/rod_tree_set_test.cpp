@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -44,6 +45,28 @@ struct Parts {
     return out;
   }
 
+  /// Casts rays in bundles, all of which have the same reach.
+  std::vector<Hit> castBundled(const std::vector<Ray>& rays, double reach,
+                               std::size_t& tested) const {
+    std::vector<Hit> out(rays.size());
+    for (Hit& hit : out) hit.distance = reach;
+    std::vector<RankedHit> ranked(out.begin(), out.end());
+    const std::vector<FloatRay> narrow(rays.begin(), rays.end());
+    for (std::size_t begin = 0; begin < rays.size();) {
+      const int count =
+          countBundled(&rays[begin], &narrow[begin], static_cast<int>(rays.size() - begin));
+      const RayBundle bundle{&rays[begin], &narrow[begin], count};
+      set.visit(bundle, &out[begin], [&](int i, std::size_t tree, std::size_t rod) {
+        ++tested;
+        const std::size_t number = first[tree] + rod, ray = begin + static_cast<std::size_t>(i);
+        ranked[ray].offer(number + 1,
+                          [&](Hit& hit) { return meetRod(all, number, rays[ray], hit); });
+      });
+      begin += static_cast<std::size_t>(count);
+    }
+    return out;
+  }
+
   std::vector<Rod> all;
   std::vector<std::size_t> first;  ///< of the rods of each part in `all`
   std::vector<RodTree> trees;
@@ -68,6 +91,61 @@ TEST(RodTreeSet, GivesTheHitsOfATestOfEveryRodOnEveryInstructionSet) {
   const std::size_t casts = 2 * rays.size() * instructionSets().size();
   EXPECT_GT(hits, casts / 5);
   EXPECT_LT(tested, casts * parts.all.size() / 50);
+}
+
+// Rays that look all around from places that differ by up to 0.2 m, neighbours after each other;
+// the signs of their components change, some of them are 0, and some rays are not finite.
+std::vector<Ray> raysAround(const Vec3& middle) {
+  std::vector<Ray> out;
+  const Random random(5);
+  for (int up = -6; up <= 6; ++up)
+    for (int i = 0; i < 600; ++i) {
+      const SinCos around = sinCosTurns(i / 600.0), above = sinCos(0.04 * up);
+      const Vec3 shift(random.uniform(out.size(), -0.1, 0.1), 0.0, 0.0);
+      out.emplace_back(middle + shift,
+                       Vec3(above.cos * around.cos, above.cos * around.sin, above.sin));
+      if (out.size() % 997 == 0) out.back().direction.x() = std::nan("");
+    }
+  return out;
+}
+
+// N1
+TEST(RodTreeSet, RaysInBundlesHaveTheirHitsOnEveryInstructionSet) {
+  const Parts parts(17);
+  const std::vector<Ray> rays = raysAround(MIDDLE + Vec3(4, 6, 0));
+  for (const std::string& set : instructionSets()) {
+    forceInstructionSet(set);
+    for (const double reach : {4.0, 1e300}) {
+      std::size_t alone = 0, bundled = 0, hits = 0;
+      const std::vector<Hit> found = parts.castBundled(rays, reach, bundled);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit right = parts.cast(rays[i], reach, alone);
+        EXPECT_TRUE(same(found[i], right)) << set << ", ray " << i;
+        hits += right.branch >= 0;
+      }
+      EXPECT_GT(hits, 100U);
+      EXPECT_LT(bundled, alone + alone / 4) << "a ray is tested against what others may hit";
+    }
+  }
+  forceInstructionSet("");
+}
+
+TEST(RayBundle, HasEqualSignsSimilarDirectionsAndAtMostItsNumberOfRays) {
+  const Vec3 origin = Vec3::Zero();
+  const auto count = [](const std::vector<Ray>& rays) {
+    const std::vector<FloatRay> narrow(rays.begin(), rays.end());
+    return countBundled(rays.data(), narrow.data(), static_cast<int>(rays.size()));
+  };
+  const Ray forward(origin, Vec3(1, 0, 0));
+  const auto turned = [&](double degrees) {
+    const SinCos a = sinCosTurns(degrees / 360.0);
+    return Ray(origin, Vec3(a.cos, a.sin, 0));
+  };
+  EXPECT_EQ(count({forward}), 1);
+  EXPECT_EQ(count(std::vector<Ray>(100, forward)), RayBundle::MOST_RAYS);
+  EXPECT_EQ(count({forward, turned(9.8), turned(10.2)}), 2);
+  EXPECT_EQ(count({forward, turned(-1.0)}), 1) << "the sign of y differs";
+  EXPECT_EQ(count({forward, Ray(origin, Vec3(1, std::nan(""), 0))}), 1);
 }
 
 // Rounded down, a radius would keep rays from rods that they hit.
