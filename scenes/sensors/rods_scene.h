@@ -6,7 +6,7 @@
 
 #include "scenes/sensors/lidar_scene.h"
 #include "sensors/geometry/ranked_hit.h"
-#include "sensors/geometry/rod_tree.h"
+#include "sensors/traversal/rod_tree.h"
 
 namespace vegetation_sim::scan {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sensors/geometry/bundle_walk.h"
+#include "sensors/traversal/bundle_walk.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::scan {

@@ -7,7 +7,7 @@
 
 #include "crowd/body/body_skeleton.h"
 #include "sensors/geometry/ranked_hit.h"
-#include "sensors/geometry/rod_tree.h"
+#include "sensors/traversal/rod_tree.h"
 
 namespace vegetation_sim::scan {
 

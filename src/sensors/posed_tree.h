@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "forest/falling_piece.h"
-#include "sensors/geometry/rod_tree.h"
 #include "sensors/media/light_path.h"
+#include "sensors/traversal/rod_tree.h"
 #include "tree/mesh/paint.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sensors/geometry/posed_set.h"
 #include "sensors/geometry/ranked_hit.h"
+#include "sensors/traversal/posed_set.h"
 
 namespace vegetation_sim::scan {
 namespace {

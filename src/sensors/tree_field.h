@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/geometry/rod_tree_set.h"
 #include "sensors/media/light_path.h"
 #include "sensors/posed_tree.h"
+#include "sensors/traversal/rod_tree_set.h"
 
 namespace vegetation_sim::scan {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/geometry/posed_set.h"
 #include "sensors/plants/posed_plant.h"
+#include "sensors/traversal/posed_set.h"
 
 namespace vegetation_sim::scan {
 

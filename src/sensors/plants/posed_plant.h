@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sensors/geometry/ranked_hit.h"
-#include "sensors/geometry/rod_tree.h"
-#include "sensors/geometry/strip_tree.h"
+#include "sensors/traversal/rod_tree.h"
+#include "sensors/traversal/strip_tree.h"
 #include "vegetation_sim/canopy/leaf_motion.h"
 
 namespace vegetation_sim::scan {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensors/geometry/strip_tree.h"
+#include "sensors/traversal/strip_tree.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::scan {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/threads/thread_pool.h"
-#include "sensors/geometry/bundle_walk.h"
-#include "sensors/geometry/rod_tree.h"
+#include "sensors/traversal/bundle_walk.h"
+#include "sensors/traversal/rod_tree.h"
 
 namespace vegetation_sim::scan {
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/strip_tree.h"
+#include "sensors/traversal/strip_tree.h"
 
 namespace vegetation_sim::scan {
 

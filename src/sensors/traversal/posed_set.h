@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sensors/geometry/ranked_hit.h"
-#include "sensors/geometry/wide_walk.h"
+#include "sensors/traversal/wide_walk.h"
 
 namespace vegetation_sim::scan {
 

@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sensors/geometry/wide_walk.h"
+#include "sensors/traversal/wide_walk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::scan::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sensors/geometry/strip.h"
-#include "sensors/geometry/wide_walk.h"
+#include "sensors/traversal/wide_walk.h"
 
 namespace vegetation_sim::scan {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sensors/geometry/wide_walk.h"
+#include "sensors/traversal/wide_walk.h"
 
 namespace vegetation_sim::scan {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sensors/geometry/ray.h"
-#include "sensors/geometry/wide_tree.h"
+#include "sensors/traversal/wide_tree.h"
 
 namespace vegetation_sim::scan {
 

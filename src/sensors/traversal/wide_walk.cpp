@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/wide_walk.h"
+#include "sensors/traversal/wide_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 // Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sensors/geometry/wide_walk.cpp"
+#define HWY_TARGET_INCLUDE "sensors/traversal/wide_walk.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sensors/geometry/ray_tests-inl.h"
+#include "sensors/traversal/ray_tests-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::scan::HWY_NAMESPACE {

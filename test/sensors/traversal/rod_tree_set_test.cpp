@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/rod_tree_set.h"
+#include "sensors/traversal/rod_tree_set.h"
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(RodTreeSet, GivesTheHitsOfATestOfEveryRodOnEveryInstructionSet) {
   EXPECT_LT(tested, casts * parts.all.size() / 50);
 }
 
-// Rays that look all around from places that differ by up to 0.2 m, neighbours after each other;
+// Rays that look all around from places that differ by up to 1 m, neighbours after each other;
 // the signs of their components change, some of them are 0, and some rays are not finite.
 std::vector<Ray> raysAround(const Vec3& middle) {
   std::vector<Ray> out;
@@ -101,7 +101,9 @@ std::vector<Ray> raysAround(const Vec3& middle) {
   for (int up = -6; up <= 6; ++up)
     for (int i = 0; i < 600; ++i) {
       const SinCos around = sinCosTurns(i / 600.0), above = sinCos(0.04 * up);
-      const Vec3 shift(random.uniform(out.size(), -0.1, 0.1), 0.0, 0.0);
+      const auto n = 3 * out.size();
+      const Vec3 shift(random.uniform(n, -0.5, 0.5), random.uniform(n + 1, -0.5, 0.5),
+                       random.uniform(n + 2, -0.5, 0.5));
       out.emplace_back(middle + shift,
                        Vec3(above.cos * around.cos, above.cos * around.sin, above.sin));
       if (out.size() % 997 == 0) out.back().direction.x() = std::nan("");

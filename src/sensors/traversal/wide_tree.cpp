@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/wide_tree.h"
+#include "sensors/traversal/wide_tree.h"
 
 #include <algorithm>
 #include <array>

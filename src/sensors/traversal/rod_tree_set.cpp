@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/geometry/rod_tree_set.h"
+#include "sensors/traversal/rod_tree_set.h"
 
 #include <algorithm>
 
