@@ -126,17 +126,17 @@ std::size_t PosedTree::partOf(int branch) const {
   return static_cast<std::size_t>(std::lower_bound(own.begin(), own.end(), branch) - own.begin());
 }
 
-bool PosedTree::meetBranch(std::size_t index, const Ray& ray, Hit& nearest) const {
+bool PosedTree::meetBranch(std::size_t index, const Ray& ray, Hit& nearest, bool wood) const {
   const PosedBranch& branch = branches_[index];
   if (branch.gone) return false;
   Meeting meeting;
-  const bool wood = scan::meet(ray, branch.rod, nearest.distance, meeting);
-  if (wood) {
+  const bool met = wood && scan::meet(ray, branch.rod, nearest.distance, meeting);
+  if (met) {
     nearest = {meeting.distance, branch.trunk ? Label::TRUNK : Label::BRANCH, id_, branchOf(index),
                meeting.cosine};
   }
   const bool leaves = branch.leaf_radius > 0.0 && meetLeaves(index, ray, nearest);
-  return wood || leaves;
+  return met || leaves;
 }
 
 // The cells are fixed to the branch, so that leaves move with it.
@@ -154,11 +154,12 @@ bool PosedTree::meetLeaves(std::size_t index, const Ray& ray, Hit& nearest) cons
   return true;
 }
 
-void PosedTree::addBranchDepth(std::size_t index, const Ray& ray, LightPath& path) const {
+void PosedTree::addBranchDepth(std::size_t index, const Ray& ray, LightPath& path,
+                               bool wood) const {
   const PosedBranch& branch = branches_[index];
   if (path.isBlocked() || branch.gone) return;
   Meeting meeting;
-  if (scan::meet(ray, branch.rod, path.end().distance, meeting)) return path.block();
+  if (wood && scan::meet(ray, branch.rod, path.end().distance, meeting)) return path.block();
   if (!(branch.leaf_radius > 0.0)) return;
   const Stretch part = within(ray, branch.rod, branch.leaf_radius);
   const double way = std::min(part.to, path.end().distance) - part.from;

@@ -70,11 +70,12 @@ class PosedTree {
   std::size_t partOf(int branch) const;
 
   /// Replaces the hit by a nearer one on a branch or its leaves; returns whether there is one.
-  bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest) const;
+  /// @param wood whether the ray may hit the branch, not only its leaves.
+  bool meetBranch(std::size_t branch, const Ray& ray, Hit& nearest, bool wood = true) const;
 
   /// Adds the optical depth of the leaves of a branch up to the end of the path, or blocks it if
   /// the branch does.
-  void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path) const;
+  void addBranchDepth(std::size_t branch, const Ray& ray, LightPath& path, bool wood = true) const;
 
  private:
   PosedTree(const forest::ForestReplica& forest, std::uint32_t id, forest::Tree tree,

@@ -133,9 +133,9 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
 
 void Trees::meet(const Ray& ray, const FloatRay& narrow, Hit& nearest) const {
   RankedHit ranked(nearest);
-  rods_.visit(ray, narrow, nearest, [&](std::size_t tree, std::size_t branch) {
+  rods_.visit(ray, narrow, nearest, [&](std::size_t tree, std::size_t branch, bool bare) {
     ranked.offer(first_ranks_[tree] + branch,
-                 [&](Hit& hit) { return trees_[tree]->meetBranch(branch, ray, hit); });
+                 [&](Hit& hit) { return trees_[tree]->meetBranch(branch, ray, hit, bare); });
   });
 }
 
@@ -143,16 +143,16 @@ void Trees::meet(const RayBundle& bundle, Hit* nearest) const {
   std::vector<RankedHit> ranked;
   ranked.reserve(RayBundle::MOST_RAYS);
   for (int ray = 0; ray < bundle.count; ++ray) ranked.emplace_back(nearest[ray]);
-  rods_.visit(bundle, nearest, [&](int ray, std::size_t tree, std::size_t branch) {
+  rods_.visit(bundle, nearest, [&](int ray, std::size_t tree, std::size_t branch, bool bare) {
     ranked[static_cast<std::size_t>(ray)].offer(first_ranks_[tree] + branch, [&](Hit& hit) {
-      return trees_[tree]->meetBranch(branch, bundle.rays[ray], hit);
+      return trees_[tree]->meetBranch(branch, bundle.rays[ray], hit, bare);
     });
   });
 }
 
 void Trees::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {
-  rods_.visit(ray, narrow, path.end(), [&](std::size_t tree, std::size_t branch) {
-    trees_[tree]->addBranchDepth(branch, ray, path);
+  rods_.visit(ray, narrow, path.end(), [&](std::size_t tree, std::size_t branch, bool bare) {
+    trees_[tree]->addBranchDepth(branch, ray, path, bare);
   });
 }
 

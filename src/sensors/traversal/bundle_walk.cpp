@@ -107,7 +107,7 @@ RodCandidates nextFew(const BundleWalk& walk, int ray, FoundGroups& groups) {
     const int nearest = takeNearest(groups);
     if (!(groups.entries[nearest] <= placed.limit)) break;
     out.group = walk.boxes[nearest / WideNode::WIDTH].child[nearest % WideNode::WIDTH];
-    out.lanes = testRods(placed, walk.groups[out.group], out.entries);
+    testRods(placed, walk.groups[out.group], out);
     if (out.lanes != 0) break;
   }
   return out;

@@ -78,16 +78,25 @@ HWY_INLINE Lanes loadHalves(const std::uint16_t* from) {
   return hn::BitCast(Tag(), hn::ShiftLeft<16>(hn::PromoteTo(words, hn::Load(halves, from))));
 }
 
+// Returns bounds of the radii of rods without their room.
+HWY_INLINE Lanes loadBare(const RodGroup& group, int first, Lanes radius) {
+  const hn::Rebind<std::uint8_t, Tag> bytes;
+  const hn::RebindToSigned<Tag> words;
+  const Lanes parts =
+      hn::ConvertTo(Tag(), hn::PromoteTo(words, hn::Load(bytes, group.bare + first)));
+  return parts * radius * all(1.f / BARE_PARTS);
+}
+
 // Tests the axes, seen along the ray, against the radius: the nearest point of each to the ray is
 // nearer than that, and the rod is neither behind the origin nor beyond the limit.
-HWY_INLINE unsigned testRods(const PlacedRay& placed, const RodGroup& group, float* entries) {
+HWY_INLINE void testRods(const PlacedRay& placed, const RodGroup& group, RodCandidates& out) {
   const FloatRay& ray = *placed.ray;
   const auto rows = [&](const float(*from)[WideNode::WIDTH], int first) HWY_ATTR {
     return Components{hn::Load(Tag(), from[0] + first), hn::Load(Tag(), from[1] + first),
                       hn::Load(Tag(), from[2] + first)};
   };
   const Lanes zero = hn::Zero(Tag()), one = all(1.f);
-  unsigned bits = 0;
+  out.lanes = out.bare = 0;
   for (int first = 0; first < group.count; first += static_cast<int>(hn::Lanes(Tag()))) {
     const Components way = rows(group.way, first);
     Components base = rows(group.base, first);
@@ -98,16 +107,20 @@ HWY_INLINE unsigned testRods(const PlacedRay& placed, const RodGroup& group, flo
     const Lanes square = hn::Max(way_u * way_u + way_v * way_v, all(1e-30f));
     const Lanes part = hn::Min(hn::Max((zero - (u * way_u + v * way_v)) / square, zero), one);
     const Lanes at_u = u + part * way_u, at_v = v + part * way_v;
-    const Lanes radius = loadHalves(group.radius + first) + all(placed.margin);
+    const Lanes room = loadHalves(group.radius + first);
+    const Lanes radius = room + all(placed.margin);
+    const Lanes bare = loadBare(group, first, room) + all(placed.margin);
     const Lanes along = dot(base, ray.direction), more = dot(way, ray.direction);
-    const auto close = at_u * at_u + at_v * at_v <= radius * radius;
+    const Lanes distance = at_u * at_u + at_v * at_v;
+    const auto close = distance <= radius * radius;
     const Lanes entry = along + hn::Min(more, zero) - radius;
-    hn::Store(entry, Tag(), entries + first);
+    hn::Store(entry, Tag(), out.entries + first);
     const auto begins = entry <= all(placed.limit);
     const auto ends = along + hn::Max(more, zero) + radius >= zero;
-    bits |= bitsOf(hn::And(close, hn::And(begins, ends)), first);
+    out.lanes |= bitsOf(hn::And(close, hn::And(begins, ends)), first);
+    out.bare |= bitsOf(distance <= bare * bare, first);
   }
-  return bits & ((1U << group.count) - 1U);
+  out.lanes &= (1U << group.count) - 1U;
 }
 
 }  // namespace vegetation_sim::scan::HWY_NAMESPACE

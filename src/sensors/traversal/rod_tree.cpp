@@ -50,7 +50,10 @@ void RodTree::put(const RoomyRod& item, const Vec3& origin, int lane, std::size_
     out.base[k][lane] = static_cast<float>(base[k]);
     out.way[k][lane] = static_cast<float>(way[k]);
   }
-  out.radius[lane] = roundUp(static_cast<float>(reach * (1.0 + 1e-6) + 1e-6));
+  const auto widen = [](double radius) { return radius * (1.0 + 1e-6) + 1e-6; };
+  out.radius[lane] = roundUp(static_cast<float>(widen(reach)));
+  const double bare = widen(reachOf({item.rod, 0.0})) / widen(reach);
+  out.bare[lane] = static_cast<std::uint8_t>(std::ceil(BARE_PARTS * bare) + 1.0);
   boxes_[group].add(base, reach);
   boxes_[group].add(base + way, reach);
 }

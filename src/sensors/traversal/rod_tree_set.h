@@ -18,21 +18,22 @@ class RodTreeSet {
   /// Copies the nodes and rods of all trees, which must be fitted to `origin`.
   void set(const std::vector<const RodTree*>& trees, const Vec3& origin, ThreadPool& threads);
 
-  /// Calls meet(tree, rod), which may reduce `nearest`, for each rod that a ray may hit; near ones
-  /// first.
+  /// Calls meet(tree, rod, bare), which may reduce `nearest`, for each rod that a ray may hit; near
+  /// ones first. If not `bare`, the ray misses the rod and meets only the room around it.
   template <class Meet>
   void visit(const Ray& ray, const FloatRay& narrow, const Hit& nearest, Meet&& meet) const {
     WideWalk walk(WalkedTree(nodes_, groups_, boxes_.origin(), boxes_.extent()), ray, narrow,
                   nearest.distance);
     for (RodCandidates next = nextRods(walk); next.lanes != 0; next = nextRods(walk)) {
       const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
-      meetNearestFirst(walk, next, nearest,
-                       [&](int i) { meet(std::size_t{group.tree}, std::size_t{group.rods[i]}); });
+      meetNearestFirst(walk, next, nearest, [&](int i) {
+        meet(std::size_t{group.tree}, std::size_t{group.rods[i]}, (next.bare >> i & 1U) != 0);
+      });
     }
   }
 
-  /// Calls meet(ray, tree, rod), which may reduce the hit of that ray, for each rod that it may
-  /// hit.
+  /// Calls meet(ray, tree, rod, bare), which may reduce the hit of that ray, for each rod that it
+  /// may hit.
   /// @param nearest the hit of each ray of the bundle.
   template <class Meet>
   void visit(const RayBundle& bundle, const Hit* nearest, Meet&& meet) const {
@@ -46,7 +47,8 @@ class RodTreeSet {
           if (next.lanes == 0) break;
           const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
           meetNearestFirst(walk.placed[ray], next, nearest[ray], [&](int i) {
-            meet(ray, std::size_t{group.tree}, std::size_t{group.rods[i]});
+            meet(ray, std::size_t{group.tree}, std::size_t{group.rods[i]},
+                 (next.bare >> i & 1U) != 0);
           });
         }
       }

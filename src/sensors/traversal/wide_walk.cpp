@@ -81,7 +81,7 @@ RodCandidates nextFew(WideWalk& walk) {
   RodCandidates out;
   for (int group = advance(walk); group >= 0; group = advance(walk)) {
     out.group = group;
-    out.lanes = testRods(walk, walk.groups[group], out.entries);
+    testRods(walk, walk.groups[group], out);
     if (out.lanes != 0) break;
   }
   return out;

@@ -34,7 +34,12 @@ struct alignas(64) RodGroup {
   std::int32_t count{0};
   std::uint32_t tree{0};                  ///< its index in a set of trees
   std::uint32_t rods[WideNode::WIDTH]{};  ///< indices in the tree
+  /// Bounds of the radii of the rods without the room around them, in parts of `radius`.
+  std::uint8_t bare[WideNode::WIDTH]{};
 };
+
+/// Parts of a radius that RodGroup::bare counts.
+constexpr int BARE_PARTS = 254;
 
 /// Returns the upper half of the bits of the next number that needs no more.
 std::uint16_t roundUp(float positive);
@@ -86,6 +91,7 @@ int nextGroup(WideWalk& walk);
 struct RodCandidates {
   int group{-1};
   unsigned lanes{0};                           ///< bit i: item i of the group; 0 at the end
+  unsigned bare{0};                            ///< those whose rod it may hit, not only the room
   alignas(64) float entries[WideNode::WIDTH];  ///< bounds of the distances of their entries
 };
 /// Returns the candidates of the next group that has any.

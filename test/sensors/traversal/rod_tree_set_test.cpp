@@ -37,7 +37,7 @@ struct Parts {
     Hit out;
     out.distance = reach;
     RankedHit ranked(out);
-    set.visit(ray, FloatRay(ray), out, [&](std::size_t tree, std::size_t rod) {
+    set.visit(ray, FloatRay(ray), out, [&](std::size_t tree, std::size_t rod, bool) {
       ++tested;
       const std::size_t i = first[tree] + rod;
       ranked.offer(i + 1, [&](Hit& hit) { return meetRod(all, i, ray, hit); });
@@ -56,7 +56,7 @@ struct Parts {
       const int count =
           countBundled(&rays[begin], &narrow[begin], static_cast<int>(rays.size() - begin));
       const RayBundle bundle{&rays[begin], &narrow[begin], count};
-      set.visit(bundle, &out[begin], [&](int i, std::size_t tree, std::size_t rod) {
+      set.visit(bundle, &out[begin], [&](int i, std::size_t tree, std::size_t rod, bool) {
         ++tested;
         const std::size_t number = first[tree] + rod, ray = begin + static_cast<std::size_t>(i);
         ranked[ray].offer(number + 1,
