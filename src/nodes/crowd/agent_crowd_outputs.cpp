@@ -42,6 +42,13 @@ void AgentCrowd::publishView(Nanoseconds stamp) {
   view_publisher_.publish(message);
 }
 
+// Displays and sensors need no files.
+void AgentCrowd::publishMotions() {
+  CrowdMotions message = toMsg(options_.motions);
+  message.header.frame_id = options_.frame_id;
+  motions_publisher_.publish(message);
+}
+
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
   if (options_.tread == Treading::NONE) return;
   for (const crowd::Walker& walker : crowd_.walkers()) {

@@ -80,14 +80,16 @@ void addLimb(TriangleLists& lists, const crowd::Limb& limb, std::size_t part, in
 
 }  // namespace
 
-CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance)
-    : crowd_(crowd), tolerance_(tolerance) {
+CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
+                           const crowd::MotionStyles& styles)
+    : crowd_(crowd), tolerance_(tolerance), styles_(styles) {
   lists_.addList("people", static_cast<std::size_t>(points) / 3 * 3);
 }
 
 void CrowdMarkers::addPerson(const crowd::Walker& walker, int sides) {
   const crowd::Clothes clothes = crowd::clothesOf(walker.id);
-  const crowd::Skeleton skeleton = skeletonOf(walker, crowd_.terrain());
+  const crowd::Skeleton skeleton =
+      skeletonOf(walker, crowd_.terrain(), styles_, secondsBetween(0, crowd_.snapshot().stamp));
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
     const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
     addLimb(lists_, skeleton[i], i, sides, own,

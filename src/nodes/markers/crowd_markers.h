@@ -6,6 +6,7 @@
 
 #include "core/lod/tier_hysteresis.h"
 #include "crowd/agents/crowd.h"
+#include "crowd/body/motion_style.h"
 #include "nodes/markers/marker_publisher.h"
 
 namespace vegetation_sim {
@@ -16,7 +17,8 @@ namespace vegetation_sim {
 class CrowdMarkers : public MarkerBuilder {
  public:
   /// @param points of the list. @param tolerance [pixel]
-  CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance);
+  CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
+               const crowd::MotionStyles& styles);
 
   /// Without viewers, all walkers have the same size in the picture.
   void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
@@ -30,6 +32,7 @@ class CrowdMarkers : public MarkerBuilder {
 
   const crowd::Crowd& crowd_;
   double tolerance_;
+  crowd::MotionStyles styles_;
   std::vector<TierChoice> choices_;  // as the crowd has its walkers
   TierHysteresis held_;
   TierAllocation balance_;

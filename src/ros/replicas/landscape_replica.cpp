@@ -85,7 +85,8 @@ std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) 
     crowd::Walker walker = person.walker;
     walker.position = walker.position + since * walker.velocity;
     crowd::advanceGait(since * crowd::speedOf(walker), walker);
-    out.push_back({walker.id, crowd::skeletonOf(walker, *terrain)});
+    out.push_back({walker.id, crowd::skeletonOf(walker, *terrain, crowd_.motions(),
+                                                secondsBetween(0, stamp))});
   }
   return out;
 }
