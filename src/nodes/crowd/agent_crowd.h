@@ -92,6 +92,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::string nameOf(const crowd::Walker& walker) const;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  std::vector<PredictedError> predictErrors() const override;
 
   // Services.
   bool onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response);

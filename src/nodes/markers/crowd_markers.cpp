@@ -107,6 +107,7 @@ void CrowdMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds sta
     const double scale = viewers.empty() ? DEFAULT_SCALE : largestScale(viewers, middle);
     TierChoice choice;
     choice.id = walker.id;
+    choice.scale = scale;
     for (std::size_t tier = 0; tier < SIDES.size(); ++tier) {
       const int sides = SIDES[tier];
       const double off = sides > 0 ? GIRTH * (1.0 - sinCosTurns(0.5 / sides).cos) : walker.height;
@@ -119,14 +120,12 @@ void CrowdMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds sta
                                  tolerance_, stamp);
 }
 
-void CrowdMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+BalanceTerms CrowdMarkers::balanceTerms() const {
   std::vector<std::string> tiers{"not drawn"};
   for (std::size_t tier = 1; tier < SIDES.size(); ++tier)
     tiers.push_back("of " + std::to_string(SIDES[tier]) + " facets");
-  report(balance_,
-         {"Walkers", tolerance_, "marker_points", "points", static_cast<double>(lists_.budget()),
-          tiers},
-         status);
+  return {"Walkers", tolerance_, "marker_points", "points", static_cast<double>(lists_.budget()),
+          tiers};
 }
 
 void CrowdMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {

@@ -8,6 +8,7 @@
 #include "crowd/agents/crowd.h"
 #include "crowd/body/motion_style.h"
 #include "nodes/markers/marker_publisher.h"
+#include "ros/services/allocation_report.h"
 
 namespace vegetation_sim {
 
@@ -24,7 +25,11 @@ class CrowdMarkers : public MarkerBuilder {
   void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
   /// The tiers chosen at the last build, with costs in points.
   const TierAllocation& balance() const { return balance_; }
-  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    report(balance(), balanceTerms(), status);
+  }
+  /// Names and limits of the last choice, balance().
+  BalanceTerms balanceTerms() const;
 
  private:
   void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);

@@ -14,14 +14,16 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STEM_SIDES = 5;
-constexpr double SUN_DEPTH = 2.2;  // optical depth of the radius of the ball
-constexpr double WIDEST = 4.0;     // largest factor of the width of leaves
-constexpr double MARGIN = 1.0;     // [m] around the bounding box
+constexpr double SUN_DEPTH = 2.2;                      // optical depth of the radius of the ball
+constexpr double WIDEST = 4.0;                         // largest factor of the width of leaves
+constexpr double PUFF_SIZE = 2.2, PUFF_BREADTH = 1.4;  // of puffs relative to leaves
+constexpr double MARGIN = 1.0;                         // [m] around the bounding box
 
 // Joined pieces have their own outline, others that of a texture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   if (leaf.joined) return LeafCut::PLAIN;
-  if (kind.shape == canopy::PlantShape::SLICES) return LeafCut::SPRIG;
+  if (kind.shape == canopy::PlantShape::SLICES)
+    return kind.look == canopy::CellLook::PUFFS ? LeafCut::PUFF : LeafCut::SPRIG;
   return isRibbon(kind) ? LeafCut::RIBBON : LeafCut::LEAF;
 }
 
@@ -228,7 +230,7 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
   const auto light = static_cast<double>(drawn.leaf.light);
   double sun = light;
   Vec3 outward = face;
-  if (drawn.cut == LeafCut::LEAF) {
+  if (drawn.cut == LeafCut::LEAF || drawn.cut == LeafCut::PUFF) {
     outward = unit(drawn.in_ball, Vec3::UnitZ());
     sun = std::exp(-SUN_DEPTH * wayOut(drawn.in_ball, to_sun)) * (0.4 + 0.6 * light);
   }
@@ -371,10 +373,11 @@ void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown
 // wrote.
 float* CanopyPatch::placeCorners(const canopy::MovedLeaf& moved, const Drawn& drawn, double grown,
                                  float* out) const {
-  const bool joined = joins(drawn.cut);
+  const bool joined = joins(drawn.cut), puff = drawn.cut == LeafCut::PUFF;
+  const double size = puff ? PUFF_SIZE * grown : grown;
   const Vec3 root = moved.root - origin_;
-  const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
-  const Vec3 side = grown * moved.side;
+  const Vec3 tip = root + (joined ? 1.0 : size) * (moved.tip - moved.root);
+  const Vec3 side = (puff ? PUFF_BREADTH * size : size) * moved.side;
   const double first = joined ? static_cast<double>(drawn.leaf.root_width) : 1.0;
   const double last = joined ? static_cast<double>(drawn.leaf.tip_width) : 1.0;
   for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),

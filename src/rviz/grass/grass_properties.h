@@ -28,9 +28,9 @@ class GrassProperties : public SceneryProperties {
   void addLook(rviz::Display& display);
   void addLevels(rviz::Display& display);
 
-  rviz::RosTopicProperty *layout_, *wind_, *state_;
+  rviz::RosTopicProperty *layout_, *wind_, *state_, *colours_;
   rviz::IntProperty* most_blades_;
-  rviz::BoolProperty *blades_, *strips_, *colour_by_level_;
+  rviz::BoolProperty *blades_, *strips_, *edge_strips_, *colour_by_level_;
   rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_;
 };
 
