@@ -68,6 +68,25 @@ TEST_F(GrassDisplayTest, DrawsStripsOnEdgesOrInRows) {
   EXPECT_LT(error[1], changed(blades));
 }
 
+// N7: frames that take longer than wanted have fewer blades, whatever takes the time.
+TEST_F(GrassDisplayTest, DrawsFewerBladesWhileFramesTakeTooLong) {
+  display->subProp("Blades")->setValue(20000);
+  ASSERT_TRUE(settled());
+  const std::size_t all = display->drawn().blades;
+  display->subProp("Frame Time")->setValue(1.0);  // less than any frame takes
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.05);
+    return display->drawn().blades < all / 3;
+  })) << display->drawn().blades
+      << " of " << all;
+  display->subProp("Frame Time")->setValue(0.0);
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.05);
+    return display->drawn().blades > 2 * all / 3;
+  })) << display->drawn().blades
+      << " of " << all;
+}
+
 // S2-12: while blades give way to strips on edges, they move there, and the picture has no jump.
 TEST_F(GrassDisplayTest, BladesSlideToTheStripsOnEdges) {
   display->subProp("Strips on Edges")->setValue(true);
