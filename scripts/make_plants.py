@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes media/plants: a fern as a mesh, and a cushion of leaves as slices. It needs numpy and
-Pillow."""
+"""Writes media/plants: a fern as a mesh, and a cushion of leaves and a cloud as slices. It needs
+numpy and Pillow."""
 import math
 import pathlib
 
@@ -12,6 +12,7 @@ from PIL import Image
 FOLDER = pathlib.Path(__file__).absolute().parent.parent / 'media' / 'plants'
 FRONDS, PAIRS = 16, 13  # A frond has PAIRS pairs of leaflets.
 CELLS, SLICES = 40, 20
+CLOUD_CELLS, CLOUD_ROWS, CLOUD_SLICES = 60, 24, 20
 
 
 class Mesh:
@@ -88,7 +89,31 @@ def write_cushion():
                                                    optimize=True)
 
 
+def write_cloud():
+    """Writes a heap of balls on a flat base, whose edges are thin."""
+    random = numpy.random.RandomState(8)
+    balls = []
+    for _ in range(46):
+        out, around = math.sqrt(random.uniform()), random.uniform(0.0, 2.0 * math.pi)
+        x, y = 0.74 * out * math.cos(around), 0.62 * out * math.sin(around)
+        rise = (1.0 - out) * random.uniform(0.0, 0.62)
+        balls.append((x, y, 0.14 + rise, random.uniform(0.14, 0.2) + 0.12 * (1.0 - out)))
+    x = (numpy.arange(CLOUD_CELLS) + 0.5) / CLOUD_CELLS * 2.0 - 1.0
+    z = (1.0 - (numpy.arange(CLOUD_ROWS) + 0.5) / CLOUD_ROWS) * 2.0 * CLOUD_ROWS / CLOUD_CELLS
+    for number in range(CLOUD_SLICES):
+        y = (number + 0.5) / CLOUD_SLICES * 2.0 - 1.0
+        density = numpy.zeros((CLOUD_ROWS, CLOUD_CELLS))
+        for cx, cy, cz, radius in balls:
+            square = (x[None, :] - cx) ** 2 + (y - cy) ** 2 + (z[:, None] - cz) ** 2
+            density = numpy.maximum(density, 1.0 - square / radius ** 2)
+        noise = random.uniform(-0.2, 0.2, density.shape)
+        grey = numpy.clip(255.0 * (0.4 + 0.9 * density + noise), 0.0, 255.0) * (density > 0.0)
+        Image.fromarray(grey.astype('uint8')).save(FOLDER / ('cloud_%02d.png' % number),
+                                                   optimize=True)
+
+
 if __name__ == '__main__':
     FOLDER.mkdir(parents=True, exist_ok=True)
     write_fern()
     write_cushion()
+    write_cloud()

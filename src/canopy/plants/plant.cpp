@@ -229,6 +229,7 @@ void describe(FieldVisitor& v, PlantKind& k) {
   v.choice("up", k.up, {"z", "y"});
   v.number("solid", k.solid, "", {0.01, 1.0});
   if (k.shape == PlantShape::TRELLIS) v.number("slope", k.slope, "", {-2.0, 2.0});
+  if (k.shape == PlantShape::SLICES) v.choice("look", k.look, {"leaves", "puffs"});
 }
 
 PlantKind applyStage(const PlantKind& kind, double stage) {

@@ -86,6 +86,7 @@ TierAllocation allocateTiers(std::vector<TierChoice>& choices, double room, doub
     const double error = errorAt(choice, choice.chosen);
     out.cost += costAt(choice, choice.chosen);
     out.largest = std::max(out.largest, error);
+    if (choice.scale > 0.0) out.largest_metres = std::max(out.largest_metres, error / choice.scale);
     out.over += error > tolerance ? 1 : 0;
     out.held_back += choice.chosen < choice.wanted ? 1 : 0;
     ++out.counts[static_cast<std::size_t>(choice.chosen)];

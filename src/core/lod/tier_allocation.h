@@ -23,6 +23,7 @@ struct TierChoice {
   int stepwise{0};      ///< up to this tier, tiers are climbed one by one
   int above{0};         ///< first tier that is climbed to from `stepwise`, if any
   int wanted{0};        ///< cheapest tier that holds the tolerance
+  double scale{0.0};    ///< unit of the errors per metre at the item; 0: it is not known
   bool resting{false};  ///< changed less than TIER_HOLD ago
   int chosen{0};        ///< outcome
   std::array<float, MAX_TIERS> error{};
@@ -31,11 +32,12 @@ struct TierChoice {
 
 /// The outcome of an allocation, for reports.
 struct TierAllocation {
-  double cost{0.0};          ///< sum over the chosen tiers
-  double wanted{0.0};        ///< cost that the tolerance asks for
-  double largest{0.0};       ///< largest predicted error
-  std::size_t over{0};       ///< number of items above the tolerance
-  std::size_t held_back{0};  ///< number of items on a lower tier than the tolerance asks for
+  double cost{0.0};            ///< sum over the chosen tiers
+  double wanted{0.0};          ///< cost that the tolerance asks for
+  double largest{0.0};         ///< largest predicted error
+  double largest_metres{0.0};  ///< the same as a length at its item [m]; 0 if no scale is known
+  std::size_t over{0};         ///< number of items above the tolerance
+  std::size_t held_back{0};    ///< number of items on a lower tier than the tolerance asks for
   std::array<std::size_t, MAX_TIERS> counts{};  ///< by tier
 };
 

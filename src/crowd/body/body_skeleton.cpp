@@ -54,10 +54,9 @@ Axes raised(const Axes& axes, double angle) {
 
 // A planted foot rolls on the slope of its own ground. A swinging foot is as much higher than the
 // other as the joints lift it.
-Ankle ankleOf(const Walker& w, int side, const Axes& axes, const terrain::HeightMap& terrain) {
-  const double amplitude = gaitAmplitude(speedOf(w), w.height);
-  const LegPose own = legPose(footPhase(w, side), amplitude);
-  const LegPose other = legPose(footPhase(w, 1 - side), amplitude);
+Ankle ankleOf(const Walker& w, int side, const Axes& axes, const LegPose (&legs)[2],
+              const terrain::HeightMap& terrain) {
+  const LegPose &own = legs[side], &other = legs[1 - side];
   double forward, up;
   rollOver(own.pitch, forward, up);
   if (footPhase(w, side) >= STANCE) {
@@ -93,9 +92,23 @@ Vec3 kneeOf(const Vec3& hip, const Vec3& ankle, const Vec3& front, double thigh,
   return hip + along * down + (out / std::max(1e-6, length(side))) * side;
 }
 
+/// Angles of an arm from the vertical [rad]; `outward` is its share to the left.
+struct ArmPose {
+  double upper, fore, outward;
+};
+
+/// What the gait or a style decides.
+struct Posture {
+  LegPose legs[2];
+  ArmPose arms[2];
+  Axes pelvis, chest;
+  Vec3 spine, head;
+};
+
 struct Body {
   const Walker& walker;
   Axes axes;
+  const Posture& posture;
   Skeleton& out;
 
   void put(Part part, int side, const Vec3& from, const Vec3& to, double radius) const {
@@ -116,58 +129,143 @@ struct Body {
         P::SOLE);
   }
 
-  void putArm(int side, const Vec3& shoulder, double amplitude) const {
+  void putArm(int side, const Vec3& shoulder) const {
     const double h = walker.height;
-    const Joints joints = jointsAt(footPhase(walker, side));
-    // An arm is slightly bent and swings more at a higher speed.
-    const SinCos upper = sinCos(amplitude * joints.shoulder);
-    const SinCos fore = sinCos(amplitude * (joints.shoulder + joints.elbow) + 0.1);
-    const double outward = side == 0 ? 0.12 : -0.12;
+    const ArmPose& arm = posture.arms[side];
+    const SinCos upper = sinCos(arm.upper), fore = sinCos(arm.fore);
     const Vec3 elbow =
         shoulder +
-        P::UPPER_ARM * h * (upper.sin * axes.front - upper.cos * axes.up + outward * axes.left);
+        P::UPPER_ARM * h * (upper.sin * axes.front - upper.cos * axes.up + arm.outward * axes.left);
     const Vec3 hand = elbow + P::FOREARM * h * (fore.sin * axes.front - fore.cos * axes.up);
     put(Part::UPPER_ARM, side, shoulder, elbow, 0.026);
     put(Part::FOREARM, side, elbow, hand, 0.022);
   }
 
-  void putTrunk(const Vec3& pelvis, const Vec3& chest, const Vec3& lean) const {
+  void putTrunk(const Vec3& pelvis, const Vec3& chest) const {
     const double h = walker.height;
+    const Vec3 &lean = posture.spine, &across = posture.pelvis.left, &wide = posture.chest.left;
     const Vec3 neck = pelvis + (P::NECK - P::THIGH - P::SHANK - P::ANKLE) * h * lean;
-    put(Part::PELVIS, 0, pelvis + 0.04 * h * axes.left, pelvis - 0.04 * h * axes.left, 0.062);
+    put(Part::PELVIS, 0, pelvis + 0.04 * h * across, pelvis - 0.04 * h * across, 0.062);
     put(Part::CHEST, 0, pelvis + 0.05 * h * lean, chest - 0.03 * h * lean, 0.078);
-    put(Part::SHOULDERS, 0, chest + 0.075 * h * axes.left, chest - 0.075 * h * axes.left, 0.05);
+    put(Part::SHOULDERS, 0, chest + 0.075 * h * wide, chest - 0.075 * h * wide, 0.05);
     put(Part::NECK, 0, chest, neck, 0.032);
-    put(Part::HEAD, 0, neck, neck + 0.06 * h * lean, P::HEAD);
+    put(Part::HEAD, 0, neck, neck + 0.06 * h * posture.head, P::HEAD);
   }
 };
+
+// Returns the lean of the trunk to the front by speed and slope [rad].
+double leanOf(const Walker& w, const Axes& axes, const terrain::HeightMap& terrain) {
+  return std::min(0.15, LEAN * speedOf(w)) + LEAN_ON_SLOPE * slopeAt(w.position, axes, terrain);
+}
+
+Posture plainPosture(const Walker& w, const Axes& axes, const terrain::HeightMap& terrain) {
+  Posture out;
+  const double amplitude = gaitAmplitude(speedOf(w), w.height);
+  for (int side = 0; side < 2; ++side) {
+    const Joints joints = jointsAt(footPhase(w, side));
+    out.legs[side] = legPose(joints, amplitude);
+    // An arm is slightly bent and swings more at a higher speed.
+    out.arms[side] = {amplitude * joints.shoulder,
+                      amplitude * (joints.shoulder + joints.elbow) + 0.1, side == 0 ? 0.12 : -0.12};
+  }
+  const SinCos tilt = sinCos(leanOf(w, axes, terrain));
+  out.pelvis = out.chest = axes;
+  out.spine = out.head = tilt.sin * axes.front + tilt.cos * axes.up;
+  return out;
+}
+
+// Returns the axes turned to the left, then rolled to the right.
+Axes turned(const Axes& axes, double yaw, double roll) {
+  const SinCos turn = sinCos(yaw), tilt = sinCos(roll);
+  const Vec3 front = turn.cos * axes.front + turn.sin * axes.left;
+  const Vec3 left = turn.cos * axes.left - turn.sin * axes.front;
+  return {front, tilt.cos * left + tilt.sin * axes.up, tilt.cos * axes.up - tilt.sin * left};
+}
+
+// Returns a direction that leans to the front and to the right.
+Vec3 leaning(const Axes& axes, double pitch, double roll) {
+  const SinCos forward = sinCos(pitch), aside = sinCos(roll);
+  return forward.sin * axes.front + forward.cos * (aside.cos * axes.up - aside.sin * axes.left);
+}
+
+ArmPose armOf(const ChannelAngles& angles, int side) {
+  const double shoulder = angles[indexOf(Channel::SHOULDER, side)];
+  const double outward = sinCos(angles[indexOf(Channel::ARM_OUT, side)]).sin;
+  return {shoulder, shoulder + angles[indexOf(Channel::ELBOW, side)],
+          side == 0 ? outward : -outward};
+}
+
+// A foot stands on its ball whatever motion data say: its toes come down in the first tenth of the
+// cycle and rise again when it swings.
+LegPose keepToesDown(const Joints& joints, double phase) {
+  Joints kept = joints;
+  const double pitch = joints.hip - joints.knee + joints.ankle;
+  const double toes_up =
+      phase < STANCE ? 1.0 - smoothStep(phase / 0.1) : smoothStep((phase - STANCE) / 0.25);
+  if (pitch > 0.0) kept.ankle -= (1.0 - toes_up) * pitch;
+  return legPose(kept, 1.0);
+}
+
+Posture styledPosture(const Walker& w, const Axes& axes, const terrain::HeightMap& terrain,
+                      const ChannelAngles& angles) {
+  Posture out;
+  for (int side = 0; side < 2; ++side) {
+    Joints joints;
+    joints.hip = angles[indexOf(Channel::HIP, side)];
+    joints.knee = angles[indexOf(Channel::KNEE, side)];
+    joints.ankle = angles[indexOf(Channel::ANKLE, side)];
+    out.legs[side] = keepToesDown(joints, footPhase(w, side));
+    out.arms[side] = armOf(angles, side);
+  }
+  const double pitch = leanOf(w, axes, terrain) + angles[indexOf(Channel::TRUNK_PITCH)];
+  const double roll = angles[indexOf(Channel::TRUNK_ROLL)];
+  out.pelvis =
+      turned(axes, angles[indexOf(Channel::PELVIS_YAW)], angles[indexOf(Channel::PELVIS_ROLL)]);
+  out.chest = turned(axes, angles[indexOf(Channel::TRUNK_YAW)], roll);
+  out.spine = leaning(axes, pitch, roll);
+  out.head = leaning(axes, leanOf(w, axes, terrain) + angles[indexOf(Channel::HEAD_PITCH)], 0.0);
+  return out;
+}
+
+Skeleton buildBody(const Walker& w, const Axes& axes, const Posture& posture,
+                   const terrain::HeightMap& terrain) {
+  Skeleton out;
+  const Body body{w, axes, posture, out};
+  const double h = w.height, leg = STRETCHED * (P::THIGH + P::SHANK) * h;
+  const Ankle ankles[2] = {ankleOf(w, 0, axes, posture.legs, terrain),
+                           ankleOf(w, 1, axes, posture.legs, terrain)};
+  Vec3 pelvis(w.position.x, w.position.y, 0.0);
+  const Vec3 half = P::HIP_HALF * h * posture.pelvis.left;
+  const Vec3 hips[2] = {pelvis + half, pelvis - half};
+  const double ground = terrain.height(w.position.x, w.position.y);
+  pelvis.z() = ground + (P::THIGH + P::SHANK + P::ANKLE) * h;
+  for (int side = 0; side < 2; ++side)
+    pelvis.z() =
+        std::min(pelvis.z(), reachOf(ankles[side].place, hips[side], leg) - hips[side].z());
+  for (int side = 0; side < 2; ++side)
+    body.putLeg(side, Vec3(hips[side].x(), hips[side].y(), pelvis.z() + hips[side].z()),
+                ankles[side]);
+  const Vec3 chest = pelvis + (P::SHOULDER - P::THIGH - P::SHANK - P::ANKLE) * h * posture.spine;
+  body.putTrunk(pelvis, chest);
+  for (int side = 0; side < 2; ++side)
+    body.putArm(side, chest + (side == 0 ? 1.0 : -1.0) * P::SHOULDER_HALF * h * posture.chest.left);
+  return out;
+}
 
 }  // namespace
 
 Skeleton skeletonOf(const Walker& w, const terrain::HeightMap& terrain) {
-  Skeleton out;
   const Axes axes = axesOf(w);
-  const Body body{w, axes, out};
-  const double h = w.height, leg = STRETCHED * (P::THIGH + P::SHANK) * h;
-  const Ankle ankles[2] = {ankleOf(w, 0, axes, terrain), ankleOf(w, 1, axes, terrain)};
-  Vec3 pelvis(w.position.x, w.position.y, 0.0);
-  const Vec3 hips[2] = {pelvis + P::HIP_HALF * h * axes.left, pelvis - P::HIP_HALF * h * axes.left};
-  const double ground = terrain.height(w.position.x, w.position.y);
-  pelvis.z() = ground + (P::THIGH + P::SHANK + P::ANKLE) * h;
-  for (int side = 0; side < 2; ++side)
-    pelvis.z() = std::min(pelvis.z(), reachOf(ankles[side].place, hips[side], leg));
-  for (int side = 0; side < 2; ++side)
-    body.putLeg(side, Vec3(hips[side].x(), hips[side].y(), pelvis.z()), ankles[side]);
-  const SinCos tilt = sinCos(std::min(0.15, LEAN * speedOf(w)) +
-                             LEAN_ON_SLOPE * slopeAt(w.position, axes, terrain));
-  const Vec3 lean = tilt.sin * axes.front + tilt.cos * axes.up;
-  const Vec3 chest = pelvis + (P::SHOULDER - P::THIGH - P::SHANK - P::ANKLE) * h * lean;
-  body.putTrunk(pelvis, chest, lean);
-  const double amplitude = gaitAmplitude(speedOf(w), h);
-  for (int side = 0; side < 2; ++side)
-    body.putArm(side, chest + (side == 0 ? 1.0 : -1.0) * P::SHOULDER_HALF * h * axes.left,
-                amplitude);
-  return out;
+  return buildBody(w, axes, plainPosture(w, axes, terrain), terrain);
+}
+
+Skeleton skeletonOf(const Walker& w, const terrain::HeightMap& terrain, const MotionStyles& styles,
+                    double seconds) {
+  const Axes axes = axesOf(w);
+  const ChannelAngles angles =
+      blendAngles(styleOf(w.id, styles), footPhase(w, 0), gaitAmplitude(speedOf(w), w.height),
+                  w.turn_rate, seconds);
+  return buildBody(w, axes, styledPosture(w, axes, terrain, angles), terrain);
 }
 
 }  // namespace vegetation_sim::crowd

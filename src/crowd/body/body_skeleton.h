@@ -5,6 +5,7 @@
 #include <array>
 
 #include "crowd/body/gait.h"
+#include "crowd/body/motion_style.h"
 #include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::crowd {
@@ -36,6 +37,10 @@ using Skeleton = std::array<Limb, PARTS>;
 /// the pelvis, which is as high as both legs allow, to the planted feet. The index of a limb is
 /// `Part` + side.
 Skeleton skeletonOf(const Walker& walker, const terrain::HeightMap& terrain);
+/// Computes the body of a walker with the style of its id; feet stand and swing where they do
+/// without. @param seconds any time that rises, for the movement of people who stand.
+Skeleton skeletonOf(const Walker& walker, const terrain::HeightMap& terrain,
+                    const MotionStyles& styles, double seconds);
 
 inline const Limb& limbOf(const Skeleton& skeleton, Part part, int side = 0) {
   return skeleton[static_cast<std::size_t>(part) + static_cast<std::size_t>(side)];

@@ -137,7 +137,10 @@ double gaitAmplitude(double speed, double height) {
 }
 
 LegPose legPose(double phase, double amplitude) {
-  const Joints joints = jointsAt(phase);
+  return legPose(jointsAt(phase), amplitude);
+}
+
+LegPose legPose(const Joints& joints, double amplitude) {
   const SinCos thigh = sinCos(amplitude * joints.hip);
   const SinCos shank = sinCos(amplitude * (joints.hip - joints.knee));
   LegPose out;

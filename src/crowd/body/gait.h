@@ -49,6 +49,8 @@ struct LegPose {
   double ankle_height{0.0};  ///< height of the ankle above the ground for a foot of this pitch
 };
 LegPose legPose(double phase, double amplitude);
+/// Returns the pose for joints that the amplitude multiplies.
+LegPose legPose(const Joints& joints, double amplitude);
 
 /// Moves the ankle relative to the flat foot's ball: the foot rolls over its heel while the toes
 /// are up, and over its ball while they are down. Shares of the height.

@@ -49,6 +49,7 @@ void TierPredictor::predict(const TreeSeed& seed, const DetailDemand& demand, Pl
   const double reach = 0.5 * table.reach;
   const double pixels = demand.pixelsPerMetre(middle, reach, settings.tolerance);
   const double view = SEEN * pixels;
+  plant.scale = pixels;
   const double air = now_.speedBound(foot, reach);
   const double speed = bendingSpeed(air, species.reference_speed);
   plant.stepwise = plant.wanted = std::min(

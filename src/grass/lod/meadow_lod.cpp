@@ -183,6 +183,7 @@ void MeadowLod::addToBalance(const Candidate& tile, TileModel tier) {
   balance_.cost += bladesAt(tile, coarseness_);
   balance_.wanted += bladesAt(tile, 1.0);
   balance_.largest = std::max(balance_.largest, error);
+  balance_.largest_metres = std::max(balance_.largest_metres, omission(tile.detail, tier));
   balance_.over += error > settings_.tolerance ? 1 : 0;
   balance_.held_back += tier < tile.wanted ? 1 : 0;
   ++balance_.counts[static_cast<std::size_t>(tier)];
@@ -221,8 +222,10 @@ std::vector<TileView> MeadowLod::viewOf(const Viewpoint& eye, Nanoseconds stamp)
     const Vec3 view = eye.position - centre;
     const double scale = pixelsPerMetre(eye, length(view) - 0.70710678 * size);
     const double flat = std::sqrt(view.x() * view.x() + view.y() * view.y());
-    TileView tile{level.row, level.column, morphAt(place), LINKS, 1.0, arcTangent(view.z(), flat)};
+    TileView tile{level.row, level.column, morphAt(place), LINKS, 1.0, arcTangent(view.z(), flat),
+                  1};
     tile.segments = bladeSegments(f.height, scale, tolerance);
+    tile.layers = layerCount(f.height, scale, tolerance);
     tile.share = bladeShare(detailOf(f), scale, tolerance);
     out.push_back(tile);
   }

@@ -47,6 +47,7 @@ struct TileView {
   int segments{LINKS};
   double share{1.0};      ///< share of the blades that is drawn
   double elevation{0.0};  ///< elevation angle from the tile to the viewpoint [rad]
+  int layers{1};          ///< layers of a view from above (S2-W3)
 };
 
 /// Level of detail of the tiles of a meadow around the viewpoints. It does not own the trodden

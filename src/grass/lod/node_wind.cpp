@@ -121,8 +121,7 @@ void NodeWind::update(const wind::Instant& wind, const std::vector<ColourMask>& 
     const double r = mask.radius;
     const Point& c = mask.centre;
     for_nodes(spanOf(c.x - r, c.x + r, c.y - r, c.y + r), [&](std::size_t i, const Vec3& place) {
-      const double dx = place.x() - c.x, dy = place.y() - c.y;
-      const double weight = mask.weight * smootherStep(1.0 - std::sqrt(dx * dx + dy * dy) / r);
+      const double weight = weightAt(mask, place.x(), place.y());
       tints_[i].weight += weight;
       tints_[i].sum += weight * mask.colour;
       return weight > 0.0;

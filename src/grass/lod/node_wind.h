@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vegetation_sim/grass/blades/blade_batch.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 #include "vegetation_sim/grass/tread/tread_law.h"
 #include "vegetation_sim/wind/instant.h"
 
@@ -21,14 +22,6 @@ struct TileWindow {
 /// Column and row of a tile.
 struct TilePlace {
   int column{0}, row{0};
-};
-
-/// A disc that colours the grass, strongest in its middle, such as a mown, dry or fertilised patch.
-struct ColourMask {
-  Point centre{};      ///< [m]
-  double radius{1.0};  ///< [m]
-  double colour{1.0};  ///< colour of the disc, 0 fresh to 1 dry
-  double weight{1.0};  ///< weight relative to the grass, which has 1
 };
 
 /// Wind and colour at the nodes of tiles (paper 2, section 4.1): displacements of primitives are

@@ -67,6 +67,19 @@ Vec3 meanColour(const FeatureMap& map, const Features& f) {
   return weight > 0.0 ? Vec3(sum / weight) : bladeColour(map.species()[0].species, f.colour);
 }
 
+Vec3 farColour(const FeatureMap& map, const Features& f) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0.0;
+  for (std::size_t s = 0; s < map.species().size(); ++s) {
+    const Species& species = map.species()[s].species;
+    const double blade = f.mix[s] * 0.5 * species.width * f.height;  // it tapers
+    const double flower = f.mix[s] * PI * species.flower_radius * species.flower_radius;
+    sum += blade * bladeColour(species, f.colour) + flower * species.flower_colour;
+    area += blade + flower;
+  }
+  return area > 0.0 ? Vec3(sum / area) : meanColour(map, f);
+}
+
 std::vector<std::uint8_t> groundColours(const FeatureMap& map, double full_density) {
   std::vector<std::uint8_t> out;
   out.reserve(static_cast<std::size_t>(map.law().columns) *
@@ -75,7 +88,7 @@ std::vector<std::uint8_t> groundColours(const FeatureMap& map, double full_densi
     for (int column = 0; column < map.law().columns; ++column) {
       const Features f = map.node(column, row);
       const double cover = saturate(f.density / full_density);
-      const Vec3 colour = SOIL + (meanColour(map, f) * 0.8 - SOIL) * cover;
+      const Vec3 colour = SOIL + (farColour(map, f) * 0.8 - SOIL) * cover;
       for (int i = 0; i < 3; ++i) out.push_back(byteOf(colour[i]));
     }
   return out;

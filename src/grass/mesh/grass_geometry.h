@@ -82,5 +82,8 @@ std::vector<std::uint8_t> groundColours(const FeatureMap& map, double full_densi
 Vec3 bladeColour(const Species& species, double colour);
 /// Returns the colour of the mix of species at a place.
 Vec3 meanColour(const FeatureMap& map, const Features& features);
+/// Returns the colour of grass of which no blade can be distinguished: blades and flowers count by
+/// their areas, so that a meadow keeps the colour of its flowers far away (S2-18).
+Vec3 farColour(const FeatureMap& map, const Features& features);
 
 }  // namespace vegetation_sim::grass

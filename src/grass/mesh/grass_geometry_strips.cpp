@@ -99,7 +99,7 @@ class Sheet {
     const int k = static_cast<int>(corner);
     Features f = map.node(tile_.column + k % 2, tile_.row + k / 2);
     f.colour = double{tile_.colour[corner]};  // includes masks
-    return meanColour(map, f);
+    return farColour(map, f);
   }
   std::size_t nodeOf(double u, double v) const {
     const auto column = static_cast<std::size_t>(std::lround(u * crush_->cells));
@@ -196,6 +196,8 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
                     2 * static_cast<std::size_t>(layers));
   for (int layer = 1; layer <= layers; ++layer) {
     const double share = static_cast<double>(layer) / layers;
+    // The lowest layer shows all blades, so the ground has the same cover for any number of layers.
+    const double below = static_cast<double>(layer - 1) / layers;
     const std::uint32_t base = first + 4 * static_cast<std::uint32_t>(layer - 1);
     for (int corner = 0; corner < 4; ++corner) {
       const int side = corner / 2;
@@ -206,7 +208,7 @@ void appendLayers(const FeatureMap& map, const Tile& tile, const TileMotion& mot
                          Vec3(top.x() * share * share, top.y() * share * share, top.z() * share);
       const double size = double{tile.size} / PICTURE_WIDTH;
       const Vec3 colour = sheet.litAt(u, v, top, light) * (0.45 + 0.55 * share);
-      writer.vertex(place, u * size, v * size, colour, sheet.coverAt(u, v) * (1.0 - 0.6 * share));
+      writer.vertex(place, u * size, v * size, colour, sheet.coverAt(u, v) * (1.0 - 0.6 * below));
     }
     writer.triangle(base, base + 1, base + 3);
     writer.triangle(base, base + 3, base + 2);

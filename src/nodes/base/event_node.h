@@ -4,6 +4,7 @@
 
 #include <dynamic_reconfigure/server.h>
 #include <tf2_ros/buffer.h>
+#include <vegetation_sim/PredictedErrors.h>
 #include <vegetation_sim/Viewer.h>
 
 #include <boost/thread/recursive_mutex.hpp>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/config/field_values.h"
 #include "nodes/base/saved_node.h"
@@ -97,10 +99,14 @@ class EventNode : public SavedNode<Queue, Options> {
   virtual void addDiagnostics(NodeBase::Status& status) = 0;
   /// Reports what the node chooses within its budgets, and why.
   virtual void addGovernor(NodeBase::Status& status) = 0;
+  /// Predicts the errors of what the node sends (N9).
+  virtual std::vector<PredictedError> predictErrors() const = 0;
 
   /// @param what the node simulates, in diagnostics. @param topic of the markers.
   void start(const char* what, const char* topic, MarkerBuilder& markers) {
     markers_.emplace(handle_, topic, options_.frame_id, markers);
+    const std::string layer = std::string(topic).substr(0, std::string(topic).rfind('/'));
+    errors_publisher_ = handle_.template advertise<PredictedErrors>(layer + "/errors", 10);
     diagnostics_.add(what, this, &EventNode::diagnose);
     diagnostics_.add("governor", this, &EventNode::diagnoseGovernor);
     this->recover();
@@ -224,6 +230,12 @@ class EventNode : public SavedNode<Queue, Options> {
   void diagnoseGovernor(NodeBase::Status& status) {
     addGovernor(status);
     markers_->report(status);
+    if (errors_publisher_.getNumSubscribers() == 0) return;
+    PredictedErrors message;
+    message.header.stamp = toStamp(lastStamp());
+    message.header.frame_id = options_.frame_id;
+    message.errors = predictErrors();
+    errors_publisher_.publish(message);
   }
 
   void followViewerFrame() {
@@ -251,6 +263,7 @@ class EventNode : public SavedNode<Queue, Options> {
   ros::Subscriber recorded_;      // to events of any version, in a replay
   bool is_other_version_{false};  // of the last recorded event
   std::optional<MarkerPublisher> markers_;
+  ros::Publisher errors_publisher_;
   boost::recursive_mutex mutex_;  // of the server, whose values a load changes
   std::unique_ptr<dynamic_reconfigure::Server<Config>> tuning_server_;
   std::optional<Config> shown_;  // what the server shows or has accepted last

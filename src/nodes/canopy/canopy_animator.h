@@ -77,6 +77,7 @@ class CanopyAnimator final
   std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override { markers_.reportTiers(status); }
+  std::vector<PredictedError> predictErrors() const override;
 
   // Services.
   bool onSample(SampleCanopy::Request& request, SampleCanopy::Response& response);

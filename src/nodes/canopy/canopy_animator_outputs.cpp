@@ -67,4 +67,8 @@ void CanopyAnimator::addDiagnostics(Status& status) {
   status.add("State sent [B]", state_bytes_);
 }
 
+std::vector<PredictedError> CanopyAnimator::predictErrors() const {
+  return {predictError("canopy/markers", markers_.balance(), markers_.balanceTerms())};
+}
+
 }  // namespace vegetation_sim

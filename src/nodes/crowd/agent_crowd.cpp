@@ -5,6 +5,7 @@
 #include "nodes/base/node_factory.h"
 
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdMotions.h>
 #include <vegetation_sim/CrowdView.h>
 
 #include "core/config/field_values.h"
@@ -24,13 +25,15 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                 loadCrowdOptions(private_handle)),
       crowd_(options_.scene.seed, options_.tuning, options_.scene.crowd.area,
              options_.scene.terrain),
-      markers_(crowd_, options_.marker_points, options_.tolerance),
+      markers_(crowd_, options_.marker_points, options_.tolerance, options_.motions),
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
   populate();
   agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
   view_publisher_ = handle_.advertise<CrowdView>("agents/view", 100);
+  motions_publisher_ = handle_.advertise<CrowdMotions>("agents/motions", 1, true);
+  publishMotions();
   tread_publisher_ = handle_.advertise<TreadEvent>("tread", 10000);
   start("crowd", "agents/markers", markers_);
 }

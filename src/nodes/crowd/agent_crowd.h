@@ -81,6 +81,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   // Outputs.
   void publishAgents(Nanoseconds stamp);
   void publishView(Nanoseconds stamp);
+  void publishMotions();
   void publishTreads(Nanoseconds stamp);
   void publishTread(const TreadEvent& event);
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
@@ -91,6 +92,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::string nameOf(const crowd::Walker& walker) const;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  std::vector<PredictedError> predictErrors() const override;
 
   // Services.
   bool onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response);
@@ -124,7 +126,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher agents_publisher_, view_publisher_, tread_publisher_;
+  ros::Publisher agents_publisher_, view_publisher_, motions_publisher_, tread_publisher_;
 };
 
 }  // namespace vegetation_sim

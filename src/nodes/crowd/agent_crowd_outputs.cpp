@@ -12,6 +12,7 @@ namespace {
 
 constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
 constexpr double PUBLISH_EVERY = 0.12;                    // a body's way [m]
+constexpr double VIEW_ROUNDING = 0.00087;                 // half a millimetre on each axis [m]
 constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from robots [m]
 
 }  // namespace
@@ -40,6 +41,13 @@ void AgentCrowd::publishView(Nanoseconds stamp) {
   message.header.frame_id = options_.frame_id;
   view_bytes_ += ros::serialization::serializationLength(message);
   view_publisher_.publish(message);
+}
+
+// Displays and sensors need no files.
+void AgentCrowd::publishMotions() {
+  CrowdMotions message = toMsg(options_.motions);
+  message.header.frame_id = options_.frame_id;
+  motions_publisher_.publish(message);
 }
 
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
@@ -172,6 +180,15 @@ void AgentCrowd::addGovernor(Status& status) {
   status.add("Viewers", viewers_.size());
   status.add("tf frames", frames_sent_);
   status.add("tf budget [frames]", options_.tf_budget);
+}
+
+std::vector<PredictedError> AgentCrowd::predictErrors() const {
+  PredictedError view;
+  view.topic = "agents/view";
+  view.metres = VIEW_ROUNDING;
+  view.cost = view.wanted = static_cast<double>(view_bytes_);
+  view.unit = "B sent";
+  return {predictError("agents/markers", markers_.balance(), markers_.balanceTerms()), view};
 }
 
 }  // namespace vegetation_sim

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "nodes/crowd/crowd_motions.h"
 #include "ros/services/frame_lookup.h"
 
 namespace vegetation_sim {
@@ -74,6 +75,7 @@ CrowdScene loadCrowdScene(const std::string& name) {
     YamlSection section = file.section("crowd");
     out.crowd = crowd::readScene(section, out.seed, file.faults());
     out.robots = readRobots(section);
+    out.motions = readMotions(section);
     section.finish();
   }
   file.loadTerrain();
@@ -87,12 +89,17 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   readScenario(parameters, out, loadCrowdScene);
   out.tuning = out.scene.crowd.settings;
   out.robots = out.scene.robots;
+  out.motions = out.scene.motions;
   parameters.frame("frame_prefix", out.frame_prefix, true);
   describe(parameters, out);
   YAML::Node list;
   if (parameters.list("robots", list)) {
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());
     out.robots = readRobots(section);
+  }
+  if (parameters.list("motions", list)) {
+    YamlSection section(list, private_handle.getNamespace(), parameters.faults());
+    out.motions = readMotions(section);
   }
   if (out.scene.crowd.spawns.size() > static_cast<std::size_t>(out.most_walkers))
     parameters.fault("most_walkers", "= " + std::to_string(out.most_walkers) +

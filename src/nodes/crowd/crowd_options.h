@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd_scene.h"
+#include "crowd/body/motion_style.h"
 #include "nodes/base/node_options.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "ros/params/scene_file.h"
@@ -23,6 +24,7 @@ enum class Treading : int { NONE = 0, BODY = 1, FEET = 2 };
 struct CrowdScene : SceneBase {
   crowd::Scene crowd;
   std::vector<crowd::Robot> robots;
+  crowd::MotionStyles motions{crowd::ownStyles()};
 };
 /// No file or no `crowd` in it gives no walkers. @throws InvalidInput with all faults of the file.
 CrowdScene loadCrowdScene(const std::string& name);
@@ -43,6 +45,7 @@ struct CrowdOptions : NodeOptions {
   int most_walkers{5000};            ///< requests for more are rejected
   int threads{1};                    ///< of a tick
   std::vector<crowd::Robot> robots;  ///< id: tf frame; footprint
+  crowd::MotionStyles motions;       ///< styles of which each person has one
   crowd::CrowdSettings tuning;       ///< initial values for dynamic_reconfigure
   CrowdScene scene;
 };

@@ -86,6 +86,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void sendBranches(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  std::vector<PredictedError> predictErrors() const override;
   void addDetail(Status& status, const std::string& whose, const forest::DetailChooser& choice,
                  const forest::TreeDetail& detail) const;
   void addPhysics(Status& status);

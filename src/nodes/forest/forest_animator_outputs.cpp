@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nodes/forest/forest_animator.h"
+#include "ros/services/allocation_report.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 
 namespace vegetation_sim {
@@ -174,6 +175,19 @@ void ForestAnimator::addPhysics(Status& status) {
 void ForestAnimator::updateDeepestOverlap() {
   for (const forest::Reaction& reaction : forest_->reactions())
     if (reaction.penetration > deepest_.penetration) deepest_ = reaction;
+}
+
+std::vector<PredictedError> ForestAnimator::predictErrors() const {
+  const double tolerance = forest_->snapshot().settings.tolerance;
+  const auto errorsOf = [&](const char* topic, const forest::DetailChooser& choice) {
+    const forest::GovernorFigures& figures = choice.figures();
+    return predictError(topic, figures,
+                        {"Trees", tolerance, "frame_time", "ms", figures.budget, {}});
+  };
+  // Sensors see errors in metres: their tolerance counts as that of viewers.
+  PredictedError sensed = errorsOf("forest/state", forest_->sensorChoice());
+  sensed.pixels = 0.0;
+  return {errorsOf("forest/view", forest_->viewChoice()), sensed};
 }
 
 }  // namespace vegetation_sim

@@ -25,7 +25,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
-  markers_ = std::make_unique<GrassMarkers>(*field_, scene.terrain, wind_, tuning_.view,
+  markers_ = std::make_unique<GrassMarkers>(*field_, scene.terrain, wind_, colours_, tuning_.view,
                                             options_.marker_points);
   layout_publisher_ = handle_.advertise<GrassLayout>("grass/layout", 1, true);
   // A late subscriber gets a key frame at the next tick.
@@ -33,6 +33,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
   forces_publisher_ = handle_.advertise<GrassForces>("grass/forces", 1000);
+  colours_publisher_ = handle_.advertise<GrassColours>("grass/colours", 1, true);
   values_publisher_ = handle_.advertise<GrassCover>("grass/cover/values", 1);
   cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("grass/cover", 1);
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
@@ -51,12 +52,14 @@ void GrassField::connect() {
   serve("sample", &GrassField::onSample);
   serve("clear", &GrassField::onClear);
   serve("cut", &GrassField::onCut);
+  serve("set_colours", &GrassField::onSetColours);
   serve("cutting", &GrassField::onCutting);
   repeat(options_.cover_rate, &GrassField::sendCover);
 }
 
 void GrassField::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
+  if (!coloured_) setColours(options_.scene.colours, stamp);
   if (!options_.replay) {
     followSources(stamp);
     followCutters(stamp);
@@ -120,7 +123,17 @@ bool GrassField::isOutdated(const GrassEvent& event) const {
          event.kind == GrassEvent::CUT;
 }
 
+// Colours have no effect on the ground, so they are no events. A recording has the topic.
+void GrassField::setColours(std::vector<grass::ColourMask> list, Nanoseconds stamp) {
+  colours_ = {stamp, std::move(list)};
+  coloured_ = true;
+  GrassColours message = toMsg(colours_);
+  message.header.frame_id = options_.frame_id;
+  if (!options_.replay) colours_publisher_.publish(message);
+}
+
 void GrassField::restart() {
+  coloured_ = false;
   resetGround();
   publishLayout();
 }

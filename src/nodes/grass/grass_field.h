@@ -10,6 +10,7 @@
 #include <vegetation_sim/GrassEvent.h>
 #include <vegetation_sim/GrassForces.h>
 #include <vegetation_sim/SampleGrass.h>
+#include <vegetation_sim/SetGrassColours.h>
 #include <vegetation_sim/Tread.h>
 #include <vegetation_sim/WindField.h>
 
@@ -24,6 +25,7 @@
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
 #include "nodes/markers/grass_markers.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 
 namespace vegetation_sim {
 
@@ -67,6 +69,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
 
   // Outputs.
   void publishLayout();
+  void setColours(std::vector<grass::ColourMask> list, Nanoseconds stamp);
   void publishState(std::int64_t tick);
   void publishEntering(Nanoseconds stamp);
   GrassForces forcesAt(Nanoseconds stamp) const;
@@ -74,12 +77,14 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void sendCover(const ros::TimerEvent& event);
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  std::vector<PredictedError> predictErrors() const override;
 
   // Services.
   bool onTreadPath(Tread::Request& request, Tread::Response& response);
   bool onSample(SampleGrass::Request& request, SampleGrass::Response& response);
   bool onCut(CutGrass::Request& request, CutGrass::Response& response);
   bool onCutting(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool onSetColours(SetGrassColours::Request& request, SetGrassColours::Response& response);
   bool onClear(ClearGrass::Request& request, ClearGrass::Response& response);
   std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
@@ -89,6 +94,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::unique_ptr<grass::TreadMap> tread_;
   std::unique_ptr<grass::TreadSimulation> field_;
   wind::Field wind_;
+  grass::ColourMasks colours_;
+  bool coloured_{false};  // the discs of the scenario have been published
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
   GrassSources sources_;
@@ -102,7 +109,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, forces_publisher_,
-      cover_publisher_, values_publisher_;
+      cover_publisher_, values_publisher_, colours_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

@@ -127,4 +127,8 @@ void GrassField::addGovernor(Status& status) {
   status.add("State budget [B/s]", key_frames_.budget());
 }
 
+std::vector<PredictedError> GrassField::predictErrors() const {
+  return {predictError("grass/markers", markers_->balance(), markers_->balanceTerms())};
+}
+
 }  // namespace vegetation_sim

@@ -146,7 +146,7 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
   out.cut = cut.height < grass::UNCUT;
   out.swath = cut.swath;
   out.density = f.density;
-  out.colour = f.colour;
+  out.colour = grass::averageColour(f.colour, colours_.at(stamp), x, y);
   out.shape = f.shape;
   double sum = 0.0;
   for (std::size_t s = 0; s < map.species().size(); ++s) sum += f.mix[s];
@@ -211,6 +211,17 @@ bool GrassField::onCutting(std_srvs::SetBool::Request& request,
   // No event shows it.
   if (switchCutters(request, options_.replay, cutters_, response)) checkpointNow();
   return true;
+}
+
+bool GrassField::onSetColours(SetGrassColours::Request& request,
+                              SetGrassColours::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    GrassColours message;
+    message.colours = request.colours;
+    setColours(fromMsg(message).list, clock_.stamp());
+    return std::to_string(request.colours.size()) + " discs";
+  });
 }
 
 bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& response) {

@@ -133,6 +133,7 @@ GrassScene loadGrassScene(const std::string& name) {
     out.grass = grass::readScene(section, file.folder(), out.seed, file.faults());
     out.sources = readFollowed(section, "sources", readSource);
     out.cutters = readCutters(section);
+    out.colours = grass::readColourMasks(section);
     section.finish();
   } else {
     grass::MapInput bare;

@@ -16,6 +16,7 @@
 #include "nodes/cutters/followed_cutter.h"
 #include "nodes/grass/grass_cover.h"
 #include "ros/params/scene_file.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 
 namespace vegetation_sim {
 
@@ -48,6 +49,7 @@ struct GrassScene : SceneBase {
   grass::Scene grass;
   std::vector<FollowedSource> sources;
   std::vector<FollowedCutter> cutters;
+  std::vector<grass::ColourMask> colours;  ///< discs that colour the grass, at the first tick
 };
 /// No file gives the default meadow, a file without `grass` one without grass.
 /// @throws InvalidInput with all faults of the file.

@@ -180,16 +180,14 @@ void CanopyMarkers::bendWood(bool cut) {
   bent_ = bent;
 }
 
-void CanopyMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+BalanceTerms CanopyMarkers::balanceTerms() const {
   std::vector<std::string> tiers;
   for (const double share : shares_) {
     char name[40];
     std::snprintf(name, sizeof name, "with %.3g %% of their leaves", 100.0 * share);
     tiers.emplace_back(name);
   }
-  report(balance_,
-         {"Plants", tolerance_, "marker_points", "points", static_cast<double>(room()), tiers},
-         status);
+  return {"Plants", tolerance_, "marker_points", "points", static_cast<double>(room()), tiers};
 }
 
 void CanopyMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {
@@ -202,6 +200,7 @@ void CanopyMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds st
         static_cast<float>(plant.scale * largestScale(viewers, middle, plant.scale * kind.radius));
     TierChoice& choice = choices_[id] = TierChoice();
     choice.id = static_cast<std::uint32_t>(id);
+    choice.scale = double{scale} / plant.scale;
     choice.cost = ladders_[plant.kind].points;
     for (std::size_t tier = 0; tier < shares_.size(); ++tier)
       choice.error[tier] = scale * ladders_[plant.kind].gaps[tier];

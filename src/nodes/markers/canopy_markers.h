@@ -8,6 +8,7 @@
 #include "core/lod/tier_hysteresis.h"
 #include "nodes/markers/marker_publisher.h"
 #include "ros/replicas/leafed_crowns.h"
+#include "ros/services/allocation_report.h"
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim {
@@ -32,7 +33,11 @@ class CanopyMarkers : public MarkerBuilder {
   const TierAllocation& balance() const { return balance_; }
   /// The part of the budget that is for leaves of plants [points].
   std::size_t room() const { return lists_.size(LEAVES); }
-  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    report(balance(), balanceTerms(), status);
+  }
+  /// Names and limits of the last choice, balance().
+  BalanceTerms balanceTerms() const;
 
  private:
   struct Drawn {

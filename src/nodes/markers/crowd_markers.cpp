@@ -80,14 +80,16 @@ void addLimb(TriangleLists& lists, const crowd::Limb& limb, std::size_t part, in
 
 }  // namespace
 
-CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance)
-    : crowd_(crowd), tolerance_(tolerance) {
+CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
+                           const crowd::MotionStyles& styles)
+    : crowd_(crowd), tolerance_(tolerance), styles_(styles) {
   lists_.addList("people", static_cast<std::size_t>(points) / 3 * 3);
 }
 
 void CrowdMarkers::addPerson(const crowd::Walker& walker, int sides) {
   const crowd::Clothes clothes = crowd::clothesOf(walker.id);
-  const crowd::Skeleton skeleton = skeletonOf(walker, crowd_.terrain());
+  const crowd::Skeleton skeleton =
+      skeletonOf(walker, crowd_.terrain(), styles_, secondsBetween(0, crowd_.snapshot().stamp));
   for (std::size_t i = 0; i < crowd::PARTS; ++i) {
     const std_msgs::ColorRGBA own = opaque(colourOf(clothes, i));
     addLimb(lists_, skeleton[i], i, sides, own,
@@ -105,6 +107,7 @@ void CrowdMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds sta
     const double scale = viewers.empty() ? DEFAULT_SCALE : largestScale(viewers, middle);
     TierChoice choice;
     choice.id = walker.id;
+    choice.scale = scale;
     for (std::size_t tier = 0; tier < SIDES.size(); ++tier) {
       const int sides = SIDES[tier];
       const double off = sides > 0 ? GIRTH * (1.0 - sinCosTurns(0.5 / sides).cos) : walker.height;
@@ -117,14 +120,12 @@ void CrowdMarkers::choose(const std::vector<Viewpoint>& viewers, Nanoseconds sta
                                  tolerance_, stamp);
 }
 
-void CrowdMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+BalanceTerms CrowdMarkers::balanceTerms() const {
   std::vector<std::string> tiers{"not drawn"};
   for (std::size_t tier = 1; tier < SIDES.size(); ++tier)
     tiers.push_back("of " + std::to_string(SIDES[tier]) + " facets");
-  report(balance_,
-         {"Walkers", tolerance_, "marker_points", "points", static_cast<double>(lists_.budget()),
-          tiers},
-         status);
+  return {"Walkers", tolerance_, "marker_points", "points", static_cast<double>(lists_.budget()),
+          tiers};
 }
 
 void CrowdMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) {

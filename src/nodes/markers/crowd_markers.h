@@ -6,7 +6,9 @@
 
 #include "core/lod/tier_hysteresis.h"
 #include "crowd/agents/crowd.h"
+#include "crowd/body/motion_style.h"
 #include "nodes/markers/marker_publisher.h"
+#include "ros/services/allocation_report.h"
 
 namespace vegetation_sim {
 
@@ -16,13 +18,18 @@ namespace vegetation_sim {
 class CrowdMarkers : public MarkerBuilder {
  public:
   /// @param points of the list. @param tolerance [pixel]
-  CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance);
+  CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
+               const crowd::MotionStyles& styles);
 
   /// Without viewers, all walkers have the same size in the picture.
   void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
   /// The tiers chosen at the last build, with costs in points.
   const TierAllocation& balance() const { return balance_; }
-  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    report(balance(), balanceTerms(), status);
+  }
+  /// Names and limits of the last choice, balance().
+  BalanceTerms balanceTerms() const;
 
  private:
   void choose(const std::vector<Viewpoint>& viewers, Nanoseconds stamp);
@@ -30,6 +37,7 @@ class CrowdMarkers : public MarkerBuilder {
 
   const crowd::Crowd& crowd_;
   double tolerance_;
+  crowd::MotionStyles styles_;
   std::vector<TierChoice> choices_;  // as the crowd has its walkers
   TierHysteresis held_;
   TierAllocation balance_;

@@ -42,10 +42,11 @@ Viewpoint eyeAbove(const grass::MeadowLod& meadow) {
 
 GrassMarkers::GrassMarkers(const grass::TreadSimulation& field,
                            std::shared_ptr<const terrain::HeightMap> terrain,
-                           const wind::Field& wind, const grass::MeadowSettings& settings,
-                           int points)
+                           const wind::Field& wind, const grass::ColourMasks& colours,
+                           const grass::MeadowSettings& settings, int points)
     : field_(field),
       wind_(wind),
+      colours_(colours),
       settings_(settings),
       meadow_(field.layout().map, std::move(terrain), field.layout().seed, settings),
       list_points_(static_cast<std::size_t>(points) / 9 * 3) {
@@ -58,15 +59,9 @@ void GrassMarkers::setSettings(const grass::MeadowSettings& settings) {
   settings_ = settings;
 }
 
-void GrassMarkers::reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  report(meadow_.balance(),
-         {"Tiles",
-          settings_.tolerance,
-          "marker_points",
-          "blades",
-          settings_.most_blades,
-          {"of texture", "of strips", "of blades"}},
-         status);
+BalanceTerms GrassMarkers::balanceTerms() const {
+  return {"Tiles",  settings_.tolerance,   "marker_points",
+          "blades", settings_.most_blades, {"of texture", "of strips", "of blades"}};
 }
 
 // Adds the whole map in squares as small as the budget allows.
@@ -139,7 +134,7 @@ void GrassMarkers::build(const std::vector<Viewpoint>& viewers, Nanoseconds stam
   std::vector<grass::TilePlace> places;
   for (const grass::TileView& view : views) places.push_back({view.column, view.row});
   grass::NodeWind air(meadow_.map(), meadow_.terrain());
-  air.update(wind_.at(stamp), {}, grass::MeadowLod::windowOf(views), &places);
+  air.update(wind_.at(stamp), colours_.at(stamp), grass::MeadowLod::windowOf(views), &places);
   for (grass::GrassMesh* mesh : {&strip_mesh_, &blade_mesh_}) {
     mesh->clear();
     mesh->origin = Vec3(eyes[0].position.x(), eyes[0].position.y(), 0.0);

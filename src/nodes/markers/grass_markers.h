@@ -9,6 +9,8 @@
 #include "grass/mesh/grass_geometry.h"
 #include "grass/tread_simulation.h"
 #include "nodes/markers/marker_publisher.h"
+#include "ros/services/allocation_report.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 #include "vegetation_sim/terrain/height_map.h"
 #include "vegetation_sim/wind/field.h"
 
@@ -21,12 +23,18 @@ class GrassMarkers : public MarkerBuilder {
   /// @param points of the three lists together, at least 900.
   GrassMarkers(const grass::TreadSimulation& field,
                std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
-               const grass::MeadowSettings& settings, int points);
+               const grass::ColourMasks& colours, const grass::MeadowSettings& settings,
+               int points);
 
   /// Without viewers, it uses a place above the middle of the map.
   void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;
   void setSettings(const grass::MeadowSettings& settings);
-  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportTiers(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    report(balance(), balanceTerms(), status);
+  }
+  /// Names and limits of the last choice, balance().
+  BalanceTerms balanceTerms() const;
+  const TierAllocation& balance() const { return meadow_.balance(); }
 
  private:
   void addGround();
@@ -37,6 +45,7 @@ class GrassMarkers : public MarkerBuilder {
   enum List : std::size_t { GROUND, STRIPS, BLADES };
   const grass::TreadSimulation& field_;
   const wind::Field& wind_;
+  const grass::ColourMasks& colours_;
   grass::MeadowSettings settings_;
   grass::MeadowLod meadow_;
   std::size_t list_points_;     // of one list

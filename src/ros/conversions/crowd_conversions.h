@@ -6,6 +6,7 @@
 #include <vegetation_sim/AgentSpawn.h>
 #include <vegetation_sim/AgentState.h>
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdMotions.h>
 #include <vegetation_sim/CrowdRobot.h>
 #include <vegetation_sim/CrowdView.h>
 
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd.h"
+#include "crowd/body/motion_style.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
 namespace vegetation_sim {
@@ -34,6 +36,10 @@ struct WalkerView {
 CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain);
 /// Reads rounded walkers. @throws InvalidInput with all faults, each with name, value and range.
 std::vector<WalkerView> fromMsg(const CrowdView& message);
+
+CrowdMotions toMsg(const crowd::MotionStyles& styles);
+/// Reads styles. @throws InvalidInput with all faults, each with name, value and range.
+crowd::MotionStyles fromMsg(const CrowdMotions& message);
 
 AgentSpawn toMsg(const crowd::Spawn& spawn);
 /// Numbers that are not given have their defaults. Adds a fault for a number without its flag;

@@ -164,6 +164,33 @@ crowd::Walker walkerAt(const CrowdView& m, std::size_t i) {
   return out;
 }
 
+constexpr std::size_t LONGEST_NAME = 60;
+constexpr std::size_t CLIP_ANGLES = crowd::Clip::KEYS * crowd::CHANNELS;
+constexpr std::size_t STYLE_ANGLES = 3 * CLIP_ANGLES;
+
+void appendClip(const crowd::Clip& clip, CrowdMotions& out) {
+  for (const crowd::ChannelAngles& key : clip.keys())
+    for (const double angle : key) out.angles.push_back(static_cast<float>(angle));
+}
+
+crowd::Clip clipAt(const CrowdMotions& message, std::size_t first) {
+  crowd::Clip::Keys keys;
+  for (crowd::ChannelAngles& key : keys)
+    for (double& angle : key) angle = static_cast<double>(message.angles[first++]);
+  return crowd::Clip(keys);
+}
+
+void checkStyleSizes(const CrowdMotions& message, Faults& faults) {
+  const std::size_t styles = message.names.size();
+  const auto check = [&](const char* name, std::size_t size, std::size_t each) {
+    if (size != each * styles)
+      faults.add(std::string(name) + " has " + std::to_string(size) + " numbers, " +
+                 std::to_string(styles) + " styles have " + std::to_string(each * styles));
+  };
+  check("stand_period", message.stand_period.size(), 1);
+  check("angles", message.angles.size(), STYLE_ANGLES);
+}
+
 }  // namespace
 
 CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain) {
@@ -193,6 +220,32 @@ std::vector<WalkerView> fromMsg(const CrowdView& message) {
           {walkerAt(message, i), message.ground_low + message.ground_step * message.ground[i]});
       out.back().walker.id = message.first_id[run] + k;
     }
+  return out;
+}
+
+CrowdMotions toMsg(const crowd::MotionStyles& styles) {
+  CrowdMotions out;
+  for (const crowd::MotionStyle& style : styles) {
+    out.names.push_back(style.name);
+    out.stand_period.push_back(style.stand_period);
+    for (const crowd::Clip* clip : {&style.walk, &style.stand, &style.turn}) appendClip(*clip, out);
+  }
+  return out;
+}
+
+crowd::MotionStyles fromMsg(const CrowdMotions& message) {
+  Faults faults;
+  checkStyleSizes(message, faults);
+  faults.throwIfAny();
+  crowd::MotionStyles out;
+  for (std::size_t i = 0; i < message.names.size(); ++i) {
+    const std::size_t first = i * STYLE_ANGLES;
+    out.push_back({message.names[i].substr(0, LONGEST_NAME), clipAt(message, first),
+                   clipAt(message, first + CLIP_ANGLES), clipAt(message, first + 2 * CLIP_ANGLES),
+                   message.stand_period[i]});
+  }
+  crowd::check(out, faults);
+  faults.throwIfAny();
   return out;
 }
 

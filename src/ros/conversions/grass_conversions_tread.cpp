@@ -95,4 +95,32 @@ grass::TreadInput fromMsg(const TreadEvent& message, const grass::TreadLaw& own,
   return out;
 }
 
+GrassColours toMsg(const grass::ColourMasks& masks) {
+  GrassColours out;
+  out.header.stamp = toStamp(masks.stamp);
+  for (const grass::ColourMask& mask : masks.list) {
+    GrassColour colour;
+    colour.x = mask.centre.x;
+    colour.y = mask.centre.y;
+    colour.radius = mask.radius;
+    colour.colour = mask.colour;
+    colour.weight = mask.weight;
+    colour.velocity_x = mask.velocity.x;
+    colour.velocity_y = mask.velocity.y;
+    out.colours.push_back(colour);
+  }
+  return out;
+}
+
+grass::ColourMasks fromMsg(const GrassColours& message) {
+  grass::ColourMasks out;
+  out.stamp = fromMsg(message.header.stamp);
+  for (const GrassColour& c : message.colours)
+    out.list.push_back({{c.x, c.y}, c.radius, c.colour, c.weight, {c.velocity_x, c.velocity_y}});
+  Faults faults;
+  check(out, faults);
+  faults.throwIfAny();
+  return out;
+}
+
 }  // namespace vegetation_sim

@@ -68,6 +68,7 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
     meadow_.prune(stamp);
     scene.grass.update(meadow_.layout(), meadow_.tread(), meadow_.terrain(), forest.wind(), centre,
                        radius, stamp);
+    scene.grass.setColours(meadow_.colours().at(stamp));
   }
   if (canopy::Replica* plants = canopy_.replica())
     scene.plants.update(plants->layout(), plants->layoutHash(), plants->foliageOfPlane(), centre,
@@ -85,7 +86,8 @@ std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) 
     crowd::Walker walker = person.walker;
     walker.position = walker.position + since * walker.velocity;
     crowd::advanceGait(since * crowd::speedOf(walker), walker);
-    out.push_back({walker.id, crowd::skeletonOf(walker, *terrain)});
+    out.push_back({walker.id, crowd::skeletonOf(walker, *terrain, crowd_.motions(),
+                                                secondsBetween(0, stamp))});
   }
   return out;
 }

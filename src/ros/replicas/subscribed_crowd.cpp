@@ -3,12 +3,21 @@
 #include "ros/replicas/subscribed_crowd.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr double LONGEST_STEP = 0.5;  // between messages, for rates of turning [s]
+
+}  // namespace
 
 void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};
   subscribeState(handle, topic, 10);
+  subscribeMotions(handle, topic);
 }
 
 void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& topic) {
@@ -19,6 +28,14 @@ void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& t
   };
   subscribers_.push_back(handle.subscribe<CrowdView>(topic + "/view", 10, callback));
   subscribe_full_();
+  subscribeMotions(handle, topic);
+}
+
+void SubscribedCrowd::subscribeMotions(ros::NodeHandle handle, const std::string& topic) {
+  const boost::function<void(const CrowdMotions&)> callback = [this](const CrowdMotions& message) {
+    apply(message);
+  };
+  motions_subscriber_ = handle.subscribe<CrowdMotions>(topic + "/motions", 2, callback);
 }
 
 // The publisher of the rounded people may appear after that of the others, or end before it.
@@ -60,7 +77,30 @@ void SubscribedCrowd::apply(const CrowdView& message) {
   });
 }
 
+void SubscribedCrowd::apply(const CrowdMotions& message) {
+  receive("agents/motions", status_, [&]() -> InputStatus {
+    motions_ = fromMsg(message);
+    if (changes_ > 0) ++changes_;
+    return status_;
+  });
+}
+
+// Both lists are in ascending order of ids.
+void SubscribedCrowd::estimateTurns(std::vector<Person>& people, Nanoseconds stamp) const {
+  const double since = secondsBetween(stamp_, stamp);
+  if (!(since > 0.0 && since < LONGEST_STEP)) return;
+  auto before = people_.begin();
+  for (Person& person : people) {
+    while (before != people_.end() && before->walker.id < person.walker.id) ++before;
+    if (before == people_.end()) return;
+    if (before->walker.id == person.walker.id)
+      person.walker.turn_rate =
+          std::remainder(person.walker.heading - before->walker.heading, 2.0 * PI) / since;
+  }
+}
+
 void SubscribedCrowd::replace(std::vector<Person> people, const std_msgs::Header& header) {
+  estimateTurns(people, fromMsg(header.stamp));
   people_ = std::move(people);
   stamp_ = fromMsg(header.stamp);
   frame_ = header.frame_id;

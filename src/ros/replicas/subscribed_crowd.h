@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdMotions.h>
 #include <vegetation_sim/CrowdView.h>
 
 #include <functional>
@@ -20,7 +21,10 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   using Person = WalkerView;
 
   explicit SubscribedCrowd(const ReplicaOptions& options = {}) : SubscribedReplica(options) {}
-  ~SubscribedCrowd() override { subscribers_.clear(); }
+  ~SubscribedCrowd() override {
+    subscribers_.clear();
+    motions_subscriber_.shutdown();
+  }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const std::string& topic);
@@ -42,7 +46,11 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
   /// Whether a publisher of the topic is connected.
   bool isPublished() const;
+  /// People turn as fast as they turned between the last two messages.
   const std::vector<Person>& people() const { return people_; }
+  /// Styles of motion from `topic`/motions; the own ones until there is a message.
+  const crowd::MotionStyles& motions() const { return motions_; }
+  void apply(const CrowdMotions& message);
   Nanoseconds stamp() const { return stamp_; }
   /// Number of changes; 0: no message has been accepted.
   int changes() const { return changes_; }
@@ -50,10 +58,14 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
  private:
   void clear(const char* why);
+  void subscribeMotions(ros::NodeHandle handle, const std::string& topic);
+  void estimateTurns(std::vector<Person>& people, Nanoseconds stamp) const;
   void replace(std::vector<Person> people, const std_msgs::Header& header);
 
   std::function<void()> subscribe_full_;  // to the topic without /view; null without a view
   std::vector<Person> people_;
+  crowd::MotionStyles motions_{crowd::ownStyles()};
+  ros::Subscriber motions_subscriber_;
   Nanoseconds stamp_{0};
   int changes_{0}, seen_changes_{0};
   Nanoseconds changed_{0};  // time of the call of forgetUnchanged() after the last change

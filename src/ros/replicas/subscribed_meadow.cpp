@@ -22,7 +22,8 @@ void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
   layout_status_ = {false, "No layout on " + handle.resolveName(topics.layout)};
   state_status_ = {false, "No state on " + handle.resolveName(topics.state) + ": no tracks"};
   if (!topics.wind.empty()) wind_.subscribe(handle, topics.wind);
-  subscribers_ = {handle.subscribe(topics.layout, 1, &SubscribedMeadow::setLayout, this)};
+  subscribers_ = {handle.subscribe(topics.layout, 1, &SubscribedMeadow::setLayout, this),
+                  handle.subscribe(topics.colours, 1, &SubscribedMeadow::setColours, this)};
   subscribeState(handle, topics.state, 100);
 }
 
@@ -49,6 +50,15 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     const grass::FeatureMap& map = *layout_.map;
     return {true, std::to_string(map.tileColumns()) + " x " + std::to_string(map.tileRows()) +
                       " tiles, " + std::to_string(map.species().size()) + " species"};
+  });
+}
+
+void SubscribedMeadow::setColours(const GrassColours& message) {
+  receive("grass/colours", state_status_, [&]() -> InputStatus {
+    requireFrame(message.header.frame_id);
+    colours_ = fromMsg(message);
+    ++changes_;
+    return state_status_;
   });
 }
 

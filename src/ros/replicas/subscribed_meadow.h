@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/GrassColours.h>
 #include <vegetation_sim/GrassLayout.h>
 #include <vegetation_sim/GrassState.h>
 
@@ -11,6 +12,7 @@
 
 #include "ros/replicas/subscribed_wind.h"
 #include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 #include "vegetation_sim/grass/tread/tread_update.h"
 #include "vegetation_sim/terrain/height_map.h"
 
@@ -23,6 +25,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
     std::string layout{"grass/layout"};
     std::string wind{"wind"};  ///< empty: no wind is needed
     std::string state{"grass/state"};
+    std::string colours{"grass/colours"};
   };
 
   explicit SubscribedMeadow(const ReplicaOptions& options = {});
@@ -45,6 +48,9 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   std::shared_ptr<const terrain::HeightMap> terrain() const { return terrain_; }
   const grass::TreadMap& tread() const { return *tread_; }
   const wind::Field& wind() const { return wind_.field(); }
+  void setColours(const GrassColours& message);
+  /// Discs that colour the grass; none until there is a message.
+  const grass::ColourMasks& colours() const { return colours_; }
   /// Number of accepted layouts, and of changes of any kind.
   int layouts() const { return layouts_; }
   int changes() const { return changes_ + wind_.messages(); }
@@ -68,6 +74,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   std::shared_ptr<const terrain::HeightMap> terrain_;
   std::unique_ptr<grass::TreadMap> tread_;
   grass::TreadReplica replica_;
+  grass::ColourMasks colours_;
   SubscribedWind wind_;
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;

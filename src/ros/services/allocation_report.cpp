@@ -37,4 +37,20 @@ void report(const TierAllocation& balance, const BalanceTerms& terms,
     status.add(terms.what + ": " + terms.tiers[tier], balance.counts[tier]);
 }
 
+PredictedError predictError(const std::string& topic, const TierAllocation& balance,
+                            const BalanceTerms& terms) {
+  PredictedError out;
+  out.topic = topic;
+  out.pixels = balance.largest;
+  out.metres = balance.largest_metres;
+  out.tolerance = terms.tolerance;
+  out.over = static_cast<std::uint32_t>(balance.over);
+  out.held_back = static_cast<std::uint32_t>(balance.held_back);
+  out.cost = balance.cost;
+  out.wanted = balance.wanted;
+  out.budget = terms.budget;
+  out.unit = terms.unit;
+  return out;
+}
+
 }  // namespace vegetation_sim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <vegetation_sim/PredictedError.h>
 
 #include <string>
 #include <vector>
@@ -23,5 +24,8 @@ struct BalanceTerms {
 /// Reports on /diagnostics the choice and its reason.
 void report(const TierAllocation& balance, const BalanceTerms& terms,
             diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Returns the errors and costs of an allocation (N9). @param topic that is sent.
+PredictedError predictError(const std::string& topic, const TierAllocation& balance,
+                            const BalanceTerms& terms);
 
 }  // namespace vegetation_sim

@@ -14,14 +14,17 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STEM_SIDES = 5;
-constexpr double SUN_DEPTH = 2.2;  // optical depth of the radius of the ball
-constexpr double WIDEST = 4.0;     // largest factor of the width of leaves
-constexpr double MARGIN = 1.0;     // [m] around the bounding box
+constexpr double SUN_DEPTH = 2.2;    // optical depth of the radius of the ball
+constexpr double WIDEST = 4.0;       // largest factor of the width of leaves
+constexpr double PUFF_SIZE = 2.4;    // of a puff relative to a leaf
+constexpr double CLOUD_LIGHT = 0.3;  // least share of sunlight in a cloud
+constexpr double MARGIN = 1.0;       // [m] around the bounding box
 
 // Joined pieces have their own outline, others that of a texture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
   if (leaf.joined) return LeafCut::PLAIN;
-  if (kind.shape == canopy::PlantShape::SLICES) return LeafCut::SPRIG;
+  if (kind.shape == canopy::PlantShape::SLICES)
+    return kind.look == canopy::CellLook::PUFFS ? LeafCut::PUFF : LeafCut::SPRIG;
   return isRibbon(kind) ? LeafCut::RIBBON : LeafCut::LEAF;
 }
 
@@ -48,6 +51,15 @@ double wayOut(const Vec3& at, const Vec3& direction) {
 Vec3 unit(const Vec3& v, const Vec3& otherwise) {
   const double size = length(v);
   return size > 1e-9 ? Vec3(v / size) : otherwise;
+}
+
+// Makes an upright square of the length of a leaf around its foot, so that no puff is seen on edge
+// from the ground.
+void setUpright(double size, Vec3& root, Vec3& tip, Vec3& side) {
+  const double half = 0.5 * size * length(tip - root);
+  side = half * unit(Vec3(side.x(), side.y(), 0.0), Vec3::UnitX());
+  tip = root + Vec3(0.0, 0.0, half);
+  root -= Vec3(0.0, 0.0, half);
 }
 
 void setColour(const Vec3& rgb, double sun, VertexPaint& paint) {
@@ -228,12 +240,20 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
   const auto light = static_cast<double>(drawn.leaf.light);
   double sun = light;
   Vec3 outward = face;
-  if (drawn.cut == LeafCut::LEAF) {
+  if (drawn.cut == LeafCut::LEAF || drawn.cut == LeafCut::PUFF) {
     outward = unit(drawn.in_ball, Vec3::UnitZ());
     sun = std::exp(-SUN_DEPTH * wayOut(drawn.in_ball, to_sun)) * (0.4 + 0.6 * light);
   }
+  // Light is scattered many times in a cloud, which hardly absorbs it.
+  float sky = static_cast<float>(light);
+  if (drawn.cut == LeafCut::PUFF) {
+    sun = CLOUD_LIGHT + (1.0 - CLOUD_LIGHT) * sun;
+    sky = 0.8f;
+    face = unit(0.7 * to_sun + outward, Vec3::UnitZ());
+    outward = face;
+  }
   const double young = drawn.leaf.shade;
-  VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, static_cast<float>(light)}};
+  VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, sky}};
   setNormal(unit(0.75 * outward + 0.5 * face, Vec3::UnitZ()), out);
   setColour(kind.colour * (1.0 - young) + kind.colour_young * young, sun, out);
   return out;
@@ -372,9 +392,10 @@ void CanopyPatch::move(const canopy::Foliage& foliage, const LeafedCrowns::Crown
 float* CanopyPatch::placeCorners(const canopy::MovedLeaf& moved, const Drawn& drawn, double grown,
                                  float* out) const {
   const bool joined = joins(drawn.cut);
-  const Vec3 root = moved.root - origin_;
-  const Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
-  const Vec3 side = grown * moved.side;
+  Vec3 root = moved.root - origin_;
+  Vec3 tip = root + (joined ? 1.0 : grown) * (moved.tip - moved.root);
+  Vec3 side = grown * moved.side;
+  if (drawn.cut == LeafCut::PUFF) setUpright(PUFF_SIZE, root, tip, side);
   const double first = joined ? static_cast<double>(drawn.leaf.root_width) : 1.0;
   const double last = joined ? static_cast<double>(drawn.leaf.tip_width) : 1.0;
   for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),

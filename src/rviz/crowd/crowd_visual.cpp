@@ -84,7 +84,7 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
   const std::vector<const Person*> people = select(crowd, view, options.most_people);
-  for (const Person* person : people) addPerson(*person, terrain, view, options);
+  for (const Person* person : people) addPerson(*person, crowd, terrain, view, options);
   bodies_.fill(body_mesh_);
   shadows_.fill(shadow_mesh_);
   report_.people = crowd.people().size();
@@ -93,10 +93,12 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   ++report_.rebuilds;
 }
 
-void CrowdVisual::addPerson(const Person& person, const terrain::HeightMap& terrain,
-                            const View& view, const Options& options) {
+void CrowdVisual::addPerson(const Person& person, const SubscribedCrowd& crowd,
+                            const terrain::HeightMap& terrain, const View& view,
+                            const Options& options) {
   const crowd::Walker& walker = person.walker;
-  crowd::Skeleton skeleton = skeletonOf(walker, terrain);
+  crowd::Skeleton skeleton =
+      skeletonOf(walker, terrain, crowd.motions(), secondsBetween(0, crowd.stamp()));
   // The message gives the height of the ground, which may differ from the terrain known here.
   const double rise = person.ground - terrain.height(walker.position.x, walker.position.y);
   for (crowd::Limb& limb : skeleton) {

@@ -52,8 +52,8 @@ class CrowdVisual {
   using Person = SubscribedCrowd::Person;
   std::vector<const Person*> select(const SubscribedCrowd& crowd, const View& view,
                                     std::size_t most) const;
-  void addPerson(const Person& person, const terrain::HeightMap& terrain, const View& view,
-                 const Options& options);
+  void addPerson(const Person& person, const SubscribedCrowd& crowd,
+                 const terrain::HeightMap& terrain, const View& view, const Options& options);
   void addShadow(const Person& person, const terrain::HeightMap& terrain,
                  const crowd::Skeleton& skeleton);
 

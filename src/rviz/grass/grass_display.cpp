@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/grass/grass_display.h"
 
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
 namespace vegetation_sim {
@@ -10,6 +11,7 @@ namespace {
 constexpr int GROUND_RANK = 2;          // the ground has tracks
 constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
 constexpr double PRUNING_PERIOD = 0.5;  // [s]
+constexpr double LEAST_BLADES = 1000.0;
 
 std::string describeGrass(const view::GrassReport& report) {
   return std::to_string(report.blades) + " blades on " + std::to_string(report.bladed) + " of " +
@@ -62,7 +64,10 @@ void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
     grass_ = std::make_unique<view::GrassVisual>(*scene_node_, *source_);
     grass_->light(properties_->daylight(), properties_->hazeValues());
   }
-  grass_->update(*source_, stamp, wall(), view, properties_->options());
+  view::GrassVisual::Options options = properties_->options();
+  const double share = feedback_.update(frameTime(), properties_->frameTime());
+  options.levels.most_blades = std::max(LEAST_BLADES, share * options.levels.most_blades);
+  grass_->update(*source_, stamp, wall(), view, options);
   if (wall() > pruned_ + PRUNING_PERIOD) {
     source_->prune(stamp);
     pruned_ = wall();

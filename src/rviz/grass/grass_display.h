@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/lod/feedback_budget.h"
 #include "rviz/grass/grass_properties.h"
 #include "rviz/grass/meadow_ground.h"
 #include "rviz/scenery/scenery_display.h"
@@ -43,6 +44,7 @@ class GrassDisplay : public SceneryDisplay {
   std::unique_ptr<SubscribedMeadow> source_;
   std::unique_ptr<view::GrassVisual> grass_;
   std::unique_ptr<view::MeadowGround> ground_;
+  FeedbackBudget feedback_;  // of blades
   int layouts_{0};
   double pruned_{0.0};  // wall time [s]
 };

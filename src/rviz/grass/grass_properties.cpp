@@ -22,6 +22,9 @@ void GrassProperties::addTopics(rviz::Display& display) {
                               display);
   state_ = addTopic<GrassState>("State Topic", "grass/state",
                                 "vegetation_sim/GrassState: trodden grass.", display);
+  colours_ =
+      addTopic<GrassColours>("Colours Topic", "grass/colours",
+                             "vegetation_sim/GrassColours: discs that colour the grass.", display);
 }
 
 void GrassProperties::addLook(rviz::Display& display) {
@@ -32,8 +35,15 @@ void GrassProperties::addLook(rviz::Display& display) {
       &display, SLOT(updateLook()), &display);
   most_blades_->setMin(1000);
   most_blades_->setMax(2000000);
+  frame_time_ = addNumber("Frame Time", 0.f,
+                          "Draw fewer blades while frames take longer than this [ms]; 0: never.",
+                          0.f, 1000.f, display);
   blades_ = addFlag("Single Blades", true, "Draw single blades near the viewer.", display);
   strips_ = addFlag("Strips", true, "Draw strips and layers farther away.", display);
+  edge_strips_ = addFlag("Strips on Edges", false,
+                         "Draw four strips on the edges of a tile, as paper 2 has them, instead of "
+                         "rows in it: fewer triangles, but tiles are visible.",
+                         display);
   variety_ =
       addNumber("Variety", 1.f, "How much colours differ from blade to blade.", 0.f, 2.f, display);
   colour_by_level_ = addFlag("Colour by Level", false,
@@ -51,7 +61,12 @@ void GrassProperties::addLevels(rviz::Display& display) {
 }
 
 SubscribedMeadow::Topics GrassProperties::topics() const {
-  return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
+  return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd(),
+          colours_->getTopicStd()};
+}
+
+double GrassProperties::frameTime() const {
+  return 1e-3 * static_cast<double>(frame_time_->getFloat());
 }
 
 GrassVisual::Options GrassProperties::options() const {
@@ -63,6 +78,7 @@ GrassVisual::Options GrassProperties::options() const {
   out.variety = variety_->getFloat();
   out.blades = blades_->getBool();
   out.strips = strips_->getBool();
+  out.edge_strips = edge_strips_->getBool();
   out.colour_by_level = colour_by_level_->getBool();
   return out;
 }

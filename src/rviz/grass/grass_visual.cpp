@@ -153,7 +153,8 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
   places.reserve(sorted.size());
   for (const grass::TileView& tile : sorted) places.push_back({tile.column, tile.row});
   grass::NodeWind air(levels_.map(), levels_.terrain());
-  air.update(meadow.wind().at(stamp), {}, grass::MeadowLod::windowOf(sorted), &places);
+  air.update(meadow.wind().at(stamp), meadow.colours().at(stamp),
+             grass::MeadowLod::windowOf(sorted), &places);
   for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->clear();
   report_.blades = report_.bladed = report_.stripped = 0;
   reach_ = 0.f;
@@ -166,7 +167,7 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
       const double distance = std::sqrt(squareDistance(tile_view, law, eye));
       reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.slide)));
     }
-    if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view);
+    if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view, options);
   }
   if (options.colour_by_level) tint(options);
   blades_.fill(blade_mesh_);
@@ -200,13 +201,15 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
 
 // Adds strips for a view from the side, and layers for a view from above.
 void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
-                          const grass::TileView& view) {
+                          const grass::TileView& view, const Options& options) {
   const double from_above = grass::layerWeight(view.elevation);
   const double upright = view.morph.strip * (1.0 - from_above);
-  if (upright > 0.0)
+  if (upright > 0.0 && options.edge_strips)
+    appendStrips(levels_.map(), tile, motion, upright, full_density_, strip_mesh_, &light_);
+  else if (upright > 0.0)
     appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
   if (from_above > 0.0)
-    appendLayers(levels_.map(), tile, motion, MOST_LAYERS, view.morph.strip * from_above,
+    appendLayers(levels_.map(), tile, motion, view.layers, view.morph.strip * from_above,
                  full_density_, layer_mesh_, &light_);
   ++report_.stripped;
 }

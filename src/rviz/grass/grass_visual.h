@@ -35,6 +35,8 @@ class GrassVisual {
     grass::MeadowSettings levels;
     float variety{1.f};  ///< see RibbonStyle::variety
     bool blades{true}, strips{true};
+    /// The four strips on the edges of a tile (paper 2, section 3.4) instead of rows in it.
+    bool edge_strips{false};
     bool colour_by_level{false};  ///< blades red, strips blue
   };
 
@@ -72,7 +74,7 @@ class GrassVisual {
   void addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
                  const grass::TileView& view, const Vec3& eye, const Options& options);
   void addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
-               const grass::TileView& view);
+               const grass::TileView& view, const Options& options);
   void tint(const Options& options);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us

@@ -8,6 +8,7 @@
 namespace vegetation_sim::view {
 namespace {
 
+constexpr double STEP_OF_COLOURS = 0.25;  // way of a disc before it is painted anew [tiles]
 constexpr int PRESSED_A_TIME = 8, IN_TURN_A_TIME = 2;  // tiles painted in one update
 
 }  // namespace
@@ -60,9 +61,43 @@ void MeadowGround::collect(const SubscribedMeadow& meadow) {
   round_.assign(all.begin(), all.end());
 }
 
+void MeadowGround::addTilesUnder(const std::vector<grass::ColourMask>& masks) {
+  const grass::MapLaw& law = map_->law();
+  const auto tileAt = [&](double place, double origin, int most) {
+    return static_cast<int>(
+        std::clamp(std::floor((place - origin) / law.resolution), -1.0, static_cast<double>(most)));
+  };
+  for (const grass::ColourMask& m : masks) {
+    const int last_row = tileAt(m.centre.y + m.radius, law.origin_y, map_->tileRows() - 1);
+    const int last_column = tileAt(m.centre.x + m.radius, law.origin_x, map_->tileColumns() - 1);
+    const int first_column =
+        std::max(0, tileAt(m.centre.x - m.radius, law.origin_x, map_->tileColumns()));
+    for (int row = std::max(0, tileAt(m.centre.y - m.radius, law.origin_y, map_->tileRows()));
+         row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column)
+        pressed_.insert({row, column});
+  }
+}
+
+// Repaints below discs that moved by a share of a tile, where they were and where they are.
+void MeadowGround::followColours(const SubscribedMeadow& meadow, Nanoseconds stamp) {
+  std::vector<grass::ColourMask> now = meadow.colours().at(stamp);
+  const double step = STEP_OF_COLOURS * map_->law().resolution;
+  const auto isNear = [&](const grass::ColourMask& a, const grass::ColourMask& b) {
+    return std::hypot(a.centre.x - b.centre.x, a.centre.y - b.centre.y) < step &&
+           a.radius == b.radius && a.colour == b.colour && a.weight == b.weight;
+  };
+  if (std::equal(now.begin(), now.end(), masks_.begin(), masks_.end(), isNear)) return;
+  addTilesUnder(masks_);
+  addTilesUnder(now);
+  painter_->setColours(now);
+  masks_ = std::move(now);
+}
+
 void MeadowGround::update(const SubscribedMeadow& meadow,
                           const std::set<std::pair<int, int>>& pressed, Nanoseconds stamp) {
   pressed_.insert(pressed.begin(), pressed.end());
+  followColours(meadow, stamp);
   for (int i = 0; i < PRESSED_A_TIME && !pressed_.empty(); ++i) {
     paint(meadow, *pressed_.begin(), stamp);
     pressed_.erase(pressed_.begin());

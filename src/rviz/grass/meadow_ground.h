@@ -12,6 +12,7 @@
 #include "ros/replicas/subscribed_meadow.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/ground/meadow_texture.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 
 namespace vegetation_sim::view {
 
@@ -34,6 +35,8 @@ class MeadowGround {
  private:
   void paint(const SubscribedMeadow& meadow, std::pair<int, int> tile, Nanoseconds stamp);
   void collect(const SubscribedMeadow& meadow);
+  void followColours(const SubscribedMeadow& meadow, Nanoseconds stamp);
+  void addTilesUnder(const std::vector<grass::ColourMask>& masks);
 
   std::shared_ptr<const grass::FeatureMap> map_;
   std::shared_ptr<const terrain::HeightMap> terrain_;
@@ -42,6 +45,7 @@ class MeadowGround {
   std::unique_ptr<GroundVisual> ground_;
   std::set<std::pair<int, int>> tracks_;    // tiles with tracks in the texture
   std::set<std::pair<int, int>> pressed_;   // to be painted first
+  std::vector<grass::ColourMask> masks_;    // with which the texture was painted last
   std::vector<std::pair<int, int>> round_;  // to be painted in turn
   grass::CrushPatch patch_;
 };

@@ -109,7 +109,8 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
   const double inside =
       std::min(std::min(x - law.origin_x, east - x), std::min(y - law.origin_y, north - y));
   if (inside <= 0.0) return land;
-  const grass::Features f = map_.at(x, y);
+  grass::Features f = map_.at(x, y);
+  if (!masks_.empty()) f.colour = grass::averageColour(f.colour, masks_, x, y);
   const auto cover = static_cast<float>(saturate(1.6 * f.density / full_));
   grass::BladePiece piece;
   const auto down = static_cast<float>(ground.crush);
@@ -118,7 +119,7 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
   // The shine of lodged grass depends on its direction, here for a view along the sunlight.
   piece.away = static_cast<float>(-(lying.x() * light_.to_sun.x() + lying.y() * light_.to_sun.y()));
   const grass::PieceLight light = lightOn(light_, piece);
-  const Vec3 own = grass::meanColour(map_, f);
+  const Vec3 own = grass::farColour(map_, f);
   const float lightness = 1.f + 0.5f * fine * (1.f - 0.5f * down) + 0.35f * patches;
   Rgba out;
   for (std::size_t i = 0; i < 3; ++i) {

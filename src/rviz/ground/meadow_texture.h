@@ -35,6 +35,8 @@ class MeadowPainter {
   Image whole() const;
   /// Paints one tile. A null `patch` is untrodden.
   Image tile(int column, int row, const grass::CrushPatch* patch) const;
+  /// Sets the discs that colour what is painted from now on.
+  void setColours(std::vector<grass::ColourMask> masks) { masks_ = std::move(masks); }
   /// Returns the place of a tile in the texture.
   int left(int column) const { return column * per_tile_; }
   int top(int row) const { return edge_ - (row + 1) * per_tile_; }
@@ -59,6 +61,7 @@ class MeadowPainter {
   Plot plot_;
   int per_tile_, edge_;
   Noise noise_;
+  std::vector<grass::ColourMask> masks_;
 };
 
 /// Paints the texture of strips and its mipmaps, which keep the coverage at each height for each

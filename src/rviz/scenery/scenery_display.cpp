@@ -150,6 +150,7 @@ void SceneryDisplay::update(float wall_dt, float /*ros_dt*/) {
   if (!open_) return;
   const double dt = static_cast<double>(wall_dt);
   wall_ += dt;
+  frame_time_ = dt;
   since_update_ += dt;
   since_status_ += dt;
   publishViewer();

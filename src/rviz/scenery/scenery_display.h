@@ -66,6 +66,8 @@ class SceneryDisplay : public rviz::Display {
   void setGroundRank(int rank);
   /// Wall time [s]; it advances while simulation time stands.
   double wall() const { return wall_; }
+  /// Wall time between the last two frames of the picture [s].
+  double frameTime() const { return frame_time_; }
 
  protected Q_SLOTS:
   void updateTopics();
@@ -99,6 +101,7 @@ class SceneryDisplay : public rviz::Display {
   view::StatusBoard board_;
   ClockJumps clock_times_;
   std::string problem_;                                       // that ended the last update early
+  double frame_time_{0.0};                                    // [s]
   double since_update_{0.0}, since_status_{1e9}, wall_{1.0};  // [s]
 };
 

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "rviz/textures/leaf_atlas.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int CUTS = 4;  // images in the atlas
+constexpr int CUTS = 8;       // places for images in the atlas; its width is a power of two
+constexpr float DOTS = 32.f;  // of a puff, along an edge
 constexpr float IMAGE_INSET =
     0.02f;  // share of an image that keeps its neighbours out of the filter
 
@@ -78,13 +81,23 @@ Rgba sprigPixel(float x, float t) {
   return out;
 }
 
+// Dots that the alpha test shows or not: many puffs behind each other make a soft edge.
+Rgba puffPixel(float x, float t) {
+  const float out = 2.f * std::hypot(x, t - 0.5f);
+  const auto dot = mix32(static_cast<std::uint32_t>((x + 0.5f) * DOTS) * 64U +
+                         static_cast<std::uint32_t>(t * DOTS));
+  const float random = static_cast<float>(dot >> 8) / 16777216.f;
+  const float dense = 0.75f * static_cast<float>(smoothStep(1.0 - static_cast<double>(out)));
+  return {0.94f, 0.94f, 0.94f, random < dense ? 1.f : 0.f};
+}
+
 }  // namespace
 
 std::vector<Image> foliageAtlas(int edge) {
   std::vector<Image> out;
   const Image cuts[] = {paint(edge, leafPixel), paint(edge, sprigPixel), paint(edge, ribbonPixel),
-                        Image(edge, edge, {0.8f, 0.8f, 0.8f, 1.f})};
-  for (int cut = 0; cut < CUTS; ++cut) {
+                        Image(edge, edge, {0.8f, 0.8f, 0.8f, 1.f}), paint(edge, puffPixel)};
+  for (int cut = 0; cut < static_cast<int>(std::size(cuts)); ++cut) {
     const std::vector<Image> levels = coveredMipmaps(cuts[cut], 4);
     for (std::size_t level = 0; level < levels.size(); ++level) {
       const int side = levels[level].columns;

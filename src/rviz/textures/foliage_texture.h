@@ -10,7 +10,8 @@
 namespace vegetation_sim::view {
 
 /// Images from which the leaves of a canopy are cut; the foot of each is at the top (v = 0).
-enum class LeafCut { LEAF, SPRIG, RIBBON, PLAIN };
+/// A PUFF of a cloud is dots that are dense in its middle.
+enum class LeafCut { LEAF, SPRIG, RIBBON, PLAIN, PUFF };
 
 /// Paints the images side by side: lightness with a mean of about 0.8 in the colour, outlines in
 /// alpha. Mipmaps keep the coverage.

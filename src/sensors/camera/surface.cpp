@@ -144,7 +144,8 @@ Surface Surfaces::leafAt(const Vec3& place, const Hit& hit) const {
 Surface Surfaces::grassAt(const Vec3& place) const {
   const GrassVolume& grass = scene_.grass;
   const grass::FeatureMap& map = *grass.layout().map;
-  const grass::Features here = map.at(place.x(), place.y());
+  grass::Features here = map.at(place.x(), place.y());
+  here.colour = grass::averageColour(here.colour, grass.colours(), place.x(), place.y());
   const double flat = grass.tiltAt(place.x(), place.y()) / grass::BEND_LIMIT;
   const GrassVolume::Cut cut = grass.cutAt(place.x(), place.y());
   const bool is_cut = cut.height < here.height;

@@ -13,6 +13,7 @@
 #include "sensors/media/beer_lambert.h"
 #include "sensors/media/light_path.h"
 #include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 #include "vegetation_sim/wind/field.h"
 
 namespace vegetation_sim::scan {
@@ -34,6 +35,9 @@ class GrassVolume {
               std::shared_ptr<const terrain::HeightMap> terrain, const wind::Field& wind,
               const Vec3& centre, double radius, Nanoseconds stamp);
   void clear() { tread_ = nullptr; }
+  /// Sets the discs that colour the grass for cameras.
+  void setColours(std::vector<grass::ColourMask> masks) { masks_ = std::move(masks); }
+  const std::vector<grass::ColourMask>& colours() const { return masks_; }
 
   /// Cells in which the grass is evaluated: those that may stop the ray, or, slowly and with the
   /// same hits, all of them.
@@ -87,6 +91,7 @@ class GrassVolume {
   double marchLight(const Ray& ray, double from, LightPath& path) const;
 
   grass::Layout layout_;
+  std::vector<grass::ColourMask> masks_;
   std::vector<Kind> kinds_;
   const grass::TreadMap* tread_{nullptr};  ///< null: no grass
   std::shared_ptr<const terrain::HeightMap> terrain_;

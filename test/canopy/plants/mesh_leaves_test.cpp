@@ -199,6 +199,22 @@ TEST(Slices, DriftInLayersAsACloud) {
   EXPECT_GT(length(Vec3(first.front() - first.back())), 1e-3);
 }
 
+// S3-W6: slices may be puffs; other shapes have no such key.
+TEST(Slices, MayLookLikePuffs) {
+  Faults faults;
+  YamlSection slices(parseYaml("{shape: slices, look: puffs}", "a"), "a", faults);
+  PlantKind kind;
+  describe(slices, kind);
+  slices.finish();
+  EXPECT_TRUE(faults.empty()) << faults.text();
+  EXPECT_EQ(kind.look, CellLook::PUFFS);
+  YamlSection shrub(parseYaml("{shape: shrub, look: puffs}", "b"), "b", faults);
+  PlantKind other;
+  describe(shrub, other);
+  shrub.finish();
+  EXPECT_NE(faults.text().find("look is not a known key"), std::string::npos) << faults.text();
+}
+
 TEST(Slices, AreRejectedIfTheyAreEmpty) {
   EXPECT_THROW(formOf(SliceStack(), 0.5), InvalidInput);
   EXPECT_THROW(formOf(SliceStack{2, 2, 1, {0.0, 0.1, 0.2, 0.3}}, 0.5), InvalidInput);

@@ -89,5 +89,19 @@ TEST(Governor, AFinerTierIsKeptUntilTheCoarserOneIsWellWithin) {
   EXPECT_EQ(tierWithin(choice, 7, 1.5), 3);
 }
 
+// N9: errors in pixels are lengths at their items, of which a far one may be the largest.
+TEST(TierAllocation, ReportsTheLargestErrorAsALength) {
+  std::vector<TierChoice> choices(3);
+  const float errors[] = {4.f, 2.f, 9.f};
+  const double scales[] = {100.0, 10.0, 0.0};  // the last one is not known
+  for (std::size_t i = 0; i < 3; ++i) {
+    choices[i].error[0] = errors[i];
+    choices[i].scale = scales[i];
+  }
+  const TierAllocation out = allocateTiers(choices, 10.0, 20.0);
+  EXPECT_EQ(out.largest, 9.0);
+  EXPECT_DOUBLE_EQ(out.largest_metres, 0.2);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

@@ -5,6 +5,8 @@
 
 #include "core/config/scenario.h"
 #include "crowd/agents/crowd_scene.h"
+#include "crowd/body/body_skeleton.h"
+#include "crowd/body/bvh_clip.h"
 #include "forest/contact/contact_body.h"
 #include "forest/forest.h"
 #include "fuzz/targets/decoding.h"
@@ -98,6 +100,38 @@ void runUrdf(std::string_view input) {
     forest::check(part, faults);
 }
 
+// Bodies of the three clips are built.
+void runBvh(std::string_view input) {
+  try {
+    const crowd::BvhMotion motion = crowd::parseBvh(std::string(input), "motion");
+    crowd::MotionStyles styles = crowd::ownStyles();
+    styles.resize(1);
+    styles[0].walk = crowd::makeClip(motion, crowd::ClipKind::WALK, "motion");
+    styles[0].stand = crowd::makeClip(motion, crowd::ClipKind::STAND, "motion");
+    try {
+      styles[0].turn = crowd::makeClip(motion, crowd::ClipKind::TURN, "motion");
+    } catch (const InvalidInput&) {  // it does not turn
+    }
+    Faults faults;
+    crowd::check(styles, faults);
+    if (!faults.empty()) throw BrokenPromise("a clip out of range: " + faults.text());
+    crowd::Walker walker;
+    walker.velocity = {1.3, 0.0};
+    walker.turn_rate = 1.0;
+    for (const crowd::Limb& limb :
+         crowd::skeletonOf(walker, terrain::HeightMap(), styles, walker.gait))
+      requireFinite(limb.to, "end of a limb");
+  } catch (const InvalidInput&) {
+  }
+}
+
+std::vector<std::string> bvhSeeds() {
+  std::vector<std::string> out;
+  for (const char* name : {"march_walk", "march_turn"})
+    out.push_back(textOf(PACKAGE_FOLDER "/config/motions/" + std::string(name) + ".bvh"));
+  return out;
+}
+
 std::vector<std::string> urdfSeeds() {
   const auto link = [](const std::string& shape) {
     return "<robot name=\"r\"><link name=\"a\"><collision><origin xyz=\"0 0 1\" rpy=\"0 0.5 0\"/>"
@@ -113,7 +147,8 @@ std::vector<std::string> urdfSeeds() {
 std::vector<Target> textTargets() {
   return {{"scenario", "all sections of a scenario file", runScenario, scenarioSeeds},
           {"species", "a species file; a tree is grown", runSpecies, speciesSeeds},
-          {"urdf", "the bodies of a URDF", runUrdf, urdfSeeds}};
+          {"urdf", "the bodies of a URDF", runUrdf, urdfSeeds},
+          {"bvh", "motion data of people; a body moves", runBvh, bvhSeeds}};
 }
 
 }  // namespace vegetation_sim::fuzz

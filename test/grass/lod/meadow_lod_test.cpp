@@ -134,6 +134,26 @@ TEST_F(MeadowLodTest, ShowsTheSameBladesAfterLeavingAndComingBack) {
         ASSERT_EQ(before[i].x[point][lane], again[i].x[point][lane]);
 }
 
+// S2-W3: tiles far below a viewer have fewer layers.
+TEST_F(MeadowLodTest, HasFewerLayersFarBelow) {
+  int before = MOST_LAYERS;
+  for (const double height : {6.0, 15.0, 40.0, 90.0}) {
+    const Viewpoint eye = eyeAt(201.0, 201.0, height);
+    MeadowLod meadow = makeMeadow(6e5);
+    meadow.setViewpoints({eye});
+    meadow.advance(MEADOW_START);
+    meadow.advance(after(5.0));
+    const auto views = viewsOf(meadow, eye, after(10.0));
+    const auto below = views.find({100, 100});
+    ASSERT_NE(below, views.end()) << height;
+    const double scale = pixelsPerMetre(eye, height - std::sqrt(2.0));
+    EXPECT_NEAR(below->second.layers, layerCount(0.3, scale, MeadowSettings().tolerance), 1);
+    EXPECT_LE(below->second.layers, before);
+    before = below->second.layers;
+  }
+  EXPECT_LT(before, 4);
+}
+
 // The number of blades stays within its budget for every viewpoint.
 TEST_F(MeadowLodTest, KeepsTheBudgetOfBlades) {
   MeadowLod small = makeMeadow(50000.0);

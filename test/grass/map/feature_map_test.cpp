@@ -62,17 +62,6 @@ TEST(FeatureMap, HasNoGrassBeyondTheBorder) {
   EXPECT_EQ(map.at(11.0, std::nan("")).density, 0.0);
 }
 
-// S2-01: 10^9 blades on a square kilometre are only a density.
-TEST(FeatureMap, OfASquareKilometreHoldsABillionBlades) {
-  MapInput input;
-  input.law.resolution = 1.0;
-  input.law.columns = input.law.rows = 1001;
-  input.density.value = 1000.0;
-  const FeatureMap map(input);
-  const double area = 1.0 * map.tileColumns() * map.tileRows();
-  EXPECT_EQ(area * map.at(500.0, 500.0).density, 1e9);
-}
-
 TEST(FeatureMap, HashDistinguishesMaps) {
   MapInput other = smallMap();
   other.density.image.samples[3] = 3;

@@ -341,6 +341,59 @@ TEST(Layers, LieOverEachOtherAndShearWithTheWind) {
   EXPECT_LT(height, 0.3);
 }
 
+// S2-W3: from above the lowest layer shows all blades, however many layers there are.
+TEST(Layers, CoverTheGroundEquallyForEveryCount) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  for (const int layers : {1, 3, MOST_LAYERS}) {
+    GrassMesh mesh;
+    appendLayers(map, tile, TileMotion(), layers, 1.0, map.at(5.0, 5.0).density, mesh);
+    EXPECT_EQ(mesh.colours[3], 255) << layers;
+    EXPECT_EQ(mesh.indices.size(), 6u * static_cast<std::size_t>(layers));
+  }
+}
+
+/// Returns red over green, summed over the areas of triangles.
+double rednessOf(const GrassMesh& mesh) {
+  double red = 0.0, green = 0.0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::size_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+    const double area =
+        (vertex(mesh, b) - vertex(mesh, a)).cross(vertex(mesh, c) - vertex(mesh, a)).norm();
+    for (const std::size_t k : {a, b, c}) {
+      red += area * mesh.colours[4 * k];
+      green += area * mesh.colours[4 * k + 1];
+    }
+  }
+  return red / green;
+}
+
+// S2-18: strips, layers and ground keep the colour of flowers that can no longer be distinguished.
+TEST(FarColour, KeepsTheColourOfFlowers) {
+  MapInput input;
+  input.species.resize(2);
+  input.species[1].species.name = "poppy";
+  input.species[1].species.flower_radius = 0.03;
+  input.species[1].species.flower_colour = Vec3(0.8, 0.1, 0.1);
+  input.species[1].mix.value = 0.3;
+  const FeatureMap map(input);
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 2, 2);
+  const auto blocks = posed(tile, TileMotion(), tile.blades);
+  RibbonStyle style;
+  style.eye = Vec3(tile.x - 20.0, tile.y + 1.0, 1.6);
+  GrassMesh blades, strips, layers;
+  appendRibbons(map, tile, blocks.data(), tile.blades, style, blades);
+  appendStrips(map, tile, TileMotion(), 1.0, 1000.0, strips);
+  appendLayers(map, tile, TileMotion(), 4, 1.0, 1000.0, layers);
+  const Vec3 green = meanColour(map, map.at(5.0, 5.0));
+  const double near = rednessOf(blades), leaves = green.x() / green.y();
+  EXPECT_GT(near, leaves + 0.2);
+  for (const double far : {rednessOf(strips), rednessOf(layers)})
+    EXPECT_NEAR(far, near, 0.35 * (near - leaves)) << near << ' ' << leaves;
+  const std::vector<std::uint8_t> ground = groundColours(map, 1000.0);
+  EXPECT_GT(double{1} * ground[0] / ground[1], leaves + 0.1);
+}
+
 // S2-13: the ground has a colour everywhere: soil where nothing grows.
 TEST(GroundColours, AreSoilWhereNothingGrowsAndGrassWhereItIsDense) {
   MapInput input;

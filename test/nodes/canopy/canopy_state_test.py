@@ -83,7 +83,11 @@ class CanopyStateTest(unittest.TestCase):
         log = Log('/canopy/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.leaves))
         values = self.leaves.diagnostics('governor')
+        error = self.leaves.predicted_errors('/canopy/errors')['canopy/markers']
         log.close()
+        # N9: a plant that is drawn completely has no error.
+        self.assertEqual((error.pixels, error.metres, error.over), (0.0, 0.0, 0))
+        self.assertEqual((error.cost, error.unit), (2 * 200 * 6, 'points'))
         self.assertEqual(values['Plants that the budget holds back'], 0)
         self.assertEqual(values['Cost [points]'], 2 * 200 * 6)
         self.assertEqual(values['Cost that the tolerance asks for [points]'], 2 * 200 * 6)

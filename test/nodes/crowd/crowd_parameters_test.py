@@ -29,6 +29,8 @@ BAD = {
     'frame_id': ('/map', "frame_id"),
     'frame_prefix': ('/left/', "frame_prefix = '/left/' begins with '/'"),
     'robots': ([{'radius': 0.4}], 'needs a frame'),
+    'motions': ([{'walk': 'package://vegetation_sim/config/terrain/hills.yaml'}],
+                "expected HIERARCHY"),
     'speeed': (1.0, 'speeed'),
 }
 SCENARIOS = [
@@ -37,6 +39,8 @@ SCENARIOS = [
     ('{crowd: {groups: [{count: 1000000}]}}', 'count = 1e+06 is outside 1 to 100000'),
     ('{crowd: {robots: [{frame: /cart}]}}', "begins with '/'"),
     ('{crowd: {robots: [{frame: a}, {frame: a}]}}', 'twice'),
+    ('{crowd: {motions: [{walk: /etc/passwd}]}}', 'is in no package and in no folder'),
+    ('{crowd: {motions: [{run: a.bvh}]}}', 'run is not a known key'),
     ('{crowds: {}}', 'crowds is not a known key'),
 ]
 

@@ -174,7 +174,14 @@ class CrowdRequests(unittest.TestCase):
         markers = Log('/agents/markers', MarkerArray)
         markers.wait(len, 'people', lambda: self.clock.run(1, self.crowd))
         values = self.crowd.diagnostics('governor')
+        errors = self.crowd.predicted_errors('/agents/errors')
         markers.close()
+        # N9: the gap between a circle of 17 cm and ten facets, at 100 pixels a metre.
+        drawn = errors['agents/markers']
+        self.assertAlmostEqual(drawn.metres, 0.17 * (1.0 - math.cos(math.pi / 10)), places=6)
+        self.assertAlmostEqual(drawn.pixels, 100.0 * drawn.metres, places=4)
+        self.assertEqual(drawn.cost, values['Cost [points]'])
+        self.assertLess(errors['agents/view'].metres, 0.001)
         # Without a viewer all walkers have the same level.
         self.assertEqual(values['Walkers: of 10 facets'], 8)
         self.assertEqual(values['Walkers that the budget holds back'], 0)

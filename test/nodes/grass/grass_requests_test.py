@@ -10,7 +10,7 @@ import rostest
 from geometry_msgs.msg import Point, PointStamped, Vector3
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import GrassCover, GrassCut, TreadEvent, TreadLaw
+from vegetation_sim.msg import GrassColour, GrassColours, GrassCover, GrassCut, TreadEvent, TreadLaw
 from visualization_msgs.msg import MarkerArray
 
 from forest_rig import TickClock
@@ -41,7 +41,14 @@ class GrassRequests(unittest.TestCase):
         log = Log('/grass/markers', MarkerArray)
         log.wait(len, 'markers', lambda: self.clock.run(3, self.grass))
         values = self.grass.diagnostics('governor')
+        error = self.grass.predicted_errors('/grass/errors')['grass/markers']
         log.close()
+        # N9: a tile that the budget holds back is off by the height or the spacing of its blades.
+        self.assertAlmostEqual(error.pixels, values['Largest predicted error [pixel]'], places=3)
+        self.assertTrue(0.01 < error.metres < 0.5, error.metres)
+        self.assertGreater(error.held_back, 0)
+        self.assertLessEqual(error.cost, error.budget)
+        self.assertGreater(error.wanted, 10 * error.budget)
         self.assertGreater(values['Cost that the tolerance asks for [blades]'],
                            10 * values['Budget [blades]'])
         self.assertLessEqual(values['Cost [blades]'], values['Budget [blades]'])
@@ -101,6 +108,27 @@ class GrassRequests(unittest.TestCase):
         self.assertEqual(self.grass.at(-10.0, -14.0).tilt, 0.0)
         self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(-10.0, -14.0).tilt, FULL - 1e-6)
+
+    # S2-18: discs colour the grass, move, and reach late subscribers.
+    def test_discs_colour_the_grass(self):
+        plain = self.grass.at(4.0, 4.0).colour
+        disc = GrassColour(x=4.0, y=4.0, radius=3.0, colour=1.0, weight=3.0, velocity_x=-2.0)
+        self.call(self.grass.set_colours, colours=[disc])
+        log = Log('/grass/colours', GrassColours)
+        log.wait(len, 'colours')
+        message = log.messages[-1]
+        self.assertEqual(message.header.frame_id, 'map')
+        self.assertEqual(message.colours, [disc])
+        start = message.header.stamp
+        there, beyond = self.grass.samples([(2.0, 4.0), (8.0, 4.0)], start + rospy.Duration(1))
+        self.assertAlmostEqual(there.colour, (plain + 3.0) / 4.0)
+        self.assertAlmostEqual(beyond.colour, plain)
+        answer = self.grass.set_colours(colours=[GrassColour(radius=1.0, colour=NAN)])
+        self.assertFalse(answer.success)
+        self.assertIn('colours[0].colour = nan', answer.message)
+        self.call(self.grass.set_colours, colours=[])
+        self.assertAlmostEqual(self.grass.at(4.0, 4.0).colour, plain)
+        log.close()
 
     def cut_of(self, height, *places, **fields):
         return dict(cut=GrassCut(outline=points(*places), height=height, **fields))

@@ -19,7 +19,7 @@ struct Row {
     viewer.position = Vec3(0.0, 0.0, 1.6);
   }
   TierAllocation build(int points, double tolerance, Nanoseconds stamp = 0) {
-    CrowdMarkers markers(crowd, points, tolerance);
+    CrowdMarkers markers(crowd, points, tolerance, crowd::ownStyles());
     markers.build({viewer}, stamp);
     EXPECT_EQ(markers.lists().message("map").markers[0].points.size(),
               static_cast<std::size_t>(points) / 3 * 3);
@@ -45,7 +45,7 @@ TEST(CrowdMarkers, FarPeopleHaveFewerFacets) {
 // rviz draws triangles without area like others, so without people there must be none.
 TEST(CrowdMarkers, NothingIsDrawnWithoutPeople) {
   Row row(0);
-  CrowdMarkers markers(row.crowd, 60000, 1.0);
+  CrowdMarkers markers(row.crowd, 60000, 1.0, crowd::ownStyles());
   const auto marker = [&] {
     markers.build({row.viewer}, 0);
     return markers.lists().message("map").markers[0];
@@ -75,7 +75,7 @@ TEST(CrowdMarkers, LimitOfPointsCoarsensPeopleBeforeAnyIsLeftOut) {
 // N7: a small move of the viewer does not change the tiers of people.
 TEST(CrowdMarkers, TiersDoNotFlicker) {
   Row row(200);
-  CrowdMarkers markers(row.crowd, 60000, 1.0);
+  CrowdMarkers markers(row.crowd, 60000, 1.0, crowd::ownStyles());
   markers.build({row.viewer}, 0);
   const auto before = markers.balance().counts;
   for (int i = 1; i < 20; ++i) {

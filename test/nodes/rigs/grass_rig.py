@@ -8,7 +8,7 @@ import roslib.packages
 import rospy
 from geometry_msgs.msg import Point
 from vegetation_sim.msg import GrassEvent, GrassLayout, GrassState, TreadEvent, TreadLaw
-from vegetation_sim.srv import ClearGrass, CutGrass, SampleGrass, Tread
+from vegetation_sim.srv import ClearGrass, CutGrass, SampleGrass, SetGrassColours, Tread
 
 from forest_rig import RATE, time_of
 from given import given
@@ -28,6 +28,7 @@ class Meadow(WatchedNode):
         self.events = Log(namespace + 'grass/events', GrassEvent)
         self.tread = rospy.ServiceProxy(name + '/tread', Tread)
         self.cut = rospy.ServiceProxy(name + '/cut', CutGrass)
+        self.set_colours = rospy.ServiceProxy(name + '/set_colours', SetGrassColours)
         self.clear = rospy.ServiceProxy(name + '/clear', ClearGrass)
         super().__init__(name, 'grass', name + '/sample', SampleGrass)
 

@@ -12,6 +12,7 @@ import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from tf2_msgs.srv import FrameGraph
+from vegetation_sim.msg import PredictedErrors
 
 from waiting import DEADLINE, wait_for
 
@@ -188,6 +189,14 @@ class WatchedNode:
         log.wait(lambda all: any(s.name == name for m in all for s in m.status), name)
         log.close()
         return [s for m in log.messages for s in m.status if s.name == name][-1]
+
+    @staticmethod
+    def predicted_errors(topic):
+        """Returns the next predicted errors of a node by the topics that it sends (N9)."""
+        log = Log(topic, PredictedErrors)
+        log.wait(len, 'predicted errors')
+        log.close()
+        return {error.topic: error for error in log.messages[-1].errors}
 
     def close(self):
         for log in self.logs():

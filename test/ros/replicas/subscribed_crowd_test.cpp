@@ -32,6 +32,55 @@ TEST(SubscribedCrowd, RejectsOtherFrames) {
   EXPECT_TRUE(crowd.status().good);
 }
 
+// S2-35: bodies follow the styles of the node, rounded to floats.
+TEST(SubscribedCrowd, HasTheStylesOfItsTopic) {
+  SubscribedCrowd crowd;
+  EXPECT_EQ(crowd.motions().size(), crowd::ownStyles().size());
+  const crowd::MotionStyles sent{crowd::ownStyles()[2]};
+  crowd.apply(toMsg(sent));
+  ASSERT_EQ(crowd.motions().size(), 1u);
+  EXPECT_EQ(crowd.motions()[0].name, sent[0].name);
+  for (const double phase : {0.1, 0.45, 0.99})
+    for (std::size_t i = 0; i < crowd::CHANNELS; ++i) {
+      EXPECT_NEAR(crowd.motions()[0].walk.anglesAt(phase)[i], sent[0].walk.anglesAt(phase)[i],
+                  1e-6);
+      EXPECT_NEAR(crowd.motions()[0].turn.anglesAt(phase)[i], sent[0].turn.anglesAt(phase)[i],
+                  1e-6);
+    }
+}
+
+TEST(SubscribedCrowd, KeepsItsStylesWhenOthersAreInvalid) {
+  SubscribedCrowd crowd;
+  const auto errorOf = [&](const std::function<void(CrowdMotions&)>& spoil) {
+    CrowdMotions message = toMsg(crowd::ownStyles());
+    spoil(message);
+    crowd.apply(message);
+    EXPECT_EQ(crowd.motions().size(), crowd::ownStyles().size());
+    return crowd.status().text;
+  };
+  EXPECT_NE(errorOf([](CrowdMotions& m) { m.angles.pop_back(); }).find("angles has 5183 numbers"),
+            std::string::npos);
+  EXPECT_NE(errorOf([](CrowdMotions& m) { m.angles[7] = 4.f; }).find("angle = 4 rad is outside"),
+            std::string::npos);
+  EXPECT_NE(errorOf([](CrowdMotions& m) { m.stand_period[0] = 0.0; }).find("stand_period = 0 s"),
+            std::string::npos);
+  EXPECT_NE(errorOf([](CrowdMotions& m) { m = CrowdMotions(); }).find("styles are 0"),
+            std::string::npos);
+}
+
+TEST(SubscribedCrowd, EstimatesTurnsFromTwoMessages) {
+  SubscribedCrowd crowd;
+  AgentStates first = onePerson(NANOSECONDS_PER_SECOND), second = onePerson(NANOSECONDS_PER_SECOND);
+  second.header.stamp = toStamp(NANOSECONDS_PER_SECOND + NANOSECONDS_PER_SECOND / 10);
+  crowd::Walker turned;
+  turned.heading = 0.05;
+  second.agents[0] = toMsg(turned, terrain::HeightMap());
+  crowd.apply(first);
+  EXPECT_EQ(crowd.people()[0].walker.turn_rate, 0.0);
+  crowd.apply(second);
+  EXPECT_NEAR(crowd.people()[0].walker.turn_rate, 0.5, 1e-9);
+}
+
 TEST(SubscribedCrowd, ForgetsPeopleOfTheFutureAndSilentPeople) {
   SubscribedCrowd crowd;
   crowd.apply(onePerson(10 * NANOSECONDS_PER_SECOND));

@@ -18,10 +18,11 @@ class GrassRig : public ViewRig {
 
   /// Starts a node that publishes the meadow. A node that already runs is stopped.
   void startNode() {
-    for (ros::Publisher* publisher : {&layout_, &wind_, &state_}) publisher->shutdown();
+    for (ros::Publisher* publisher : {&layout_, &wind_, &state_, &colours_}) publisher->shutdown();
     layout_ = nh_.advertise<GrassLayout>("grass/layout", 1, true);
     wind_ = nh_.advertise<WindField>("wind", 1, true);
     state_ = nh_.advertise<GrassState>("grass/state", 10, true);
+    colours_ = nh_.advertise<GrassColours>("grass/colours", 1, true);
   }
 
   GrassDisplay* addDisplay() { return add<GrassDisplay>("vegetation_sim/GrassDisplay"); }
@@ -58,6 +59,7 @@ class GrassRig : public ViewRig {
   void publish(const GrassLayout& message) { layout_.publish(message); }
   void publish(const WindField& message) { wind_.publish(message); }
   void publish(const GrassState& message) { state_.publish(message); }
+  void publish(const GrassColours& message) { colours_.publish(message); }
 
   /// Treads a track from a to b in steps of 5 cm and publishes it at once in a key frame.
   void tread(const grass::Point& a, const grass::Point& b, double recovery = 1e9) {
@@ -87,7 +89,7 @@ class GrassRig : public ViewRig {
   }
 
  private:
-  ros::Publisher layout_, wind_, state_;
+  ros::Publisher layout_, wind_, state_, colours_;
   std::unique_ptr<grass::TreadMap> tread_;
   std::uint64_t hash_{0};
   std::uint32_t sequence_{0};

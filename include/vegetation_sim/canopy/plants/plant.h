@@ -36,6 +36,9 @@ enum class PlantShape : int {
 constexpr const char* RIGID_WORDS = "wood trunk bark branch stem twig bough";
 constexpr std::size_t LONGEST_RIGID_WORDS = 500;  ///< [characters]
 
+/// What a cell of slices is drawn as: leaves on a twig, or a puff of a cloud or of smoke (S3-W6).
+enum class CellLook { LEAVES, PUFFS };
+
 /// Axis of a mesh that points up.
 enum class UpAxis { Z, Y };
 
@@ -76,10 +79,11 @@ struct PlantKind {
   Vec3 colour{Vec3(0.16, 0.34, 0.09)};        ///< red, green, blue
   Vec3 colour_young{Vec3(0.42, 0.55, 0.18)};  ///< colour of the lightest leaves
   Vec3 stem_colour{Vec3(0.30, 0.23, 0.15)};
-  UpAxis up{UpAxis::Z};  ///< vertical axis of a mesh
-  double slope{0.0};     ///< rise of the wires of a TRELLIS per metre
-  double solid{0.5};     ///< smallest density of a slice's cell that gets a leaf
-  std::string file;      ///< file of a mesh, or of the first slice; scaled to `height`
+  UpAxis up{UpAxis::Z};             ///< vertical axis of a mesh
+  double slope{0.0};                ///< rise of the wires of a TRELLIS per metre
+  double solid{0.5};                ///< smallest density of a slice's cell that gets a leaf
+  CellLook look{CellLook::LEAVES};  ///< of SLICES
+  std::string file;                 ///< file of a mesh, or of the first slice; scaled to `height`
   /// Words, separated by blanks: faces of a mesh whose material, object or node has one of them in
   /// its name, in letters of any case, are rigid (S3-02).
   std::string rigid{RIGID_WORDS};
@@ -95,7 +99,7 @@ inline bool isRibbon(const PlantKind& kind) {
   return kind.shape == PlantShape::REED || kind.shape == PlantShape::KELP ||
          kind.shape == PlantShape::STALK;
 }
-/// Visits the fields; `slope` only of a TRELLIS.
+/// Visits the fields; `slope` only of a TRELLIS and `look` only of SLICES.
 void describe(FieldVisitor& visitor, PlantKind& kind);
 
 /// Returns the kind at a stage of growth from 0 (seedling) to 1 (as it is): sizes and leaves times

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/GrassColours.h>
 #include <vegetation_sim/GrassCut.h>
 #include <vegetation_sim/GrassLayout.h>
 #include <vegetation_sim/GrassState.h>
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "vegetation_sim/grass/grass_layout.h"
+#include "vegetation_sim/grass/lod/colour_mask.h"
 #include "vegetation_sim/grass/tread/tread_input.h"
 #include "vegetation_sim/grass/tread/tread_update.h"
 
@@ -26,6 +28,11 @@ grass::Layout fromMsg(const GrassLayout& message);
 GrassState toMsg(const grass::TreadUpdate& update);
 /// @throws InvalidInput for what cannot be.
 grass::TreadUpdate fromMsg(const GrassState& message);
+
+/// The frame of the header is left to the sender.
+GrassColours toMsg(const grass::ColourMasks& masks);
+/// @throws InvalidInput with all values that are not finite or out of range.
+grass::ColourMasks fromMsg(const GrassColours& message);
 
 GrassCut toMsg(const grass::CutArea& area);
 /// @throws InvalidInput with all values that are not finite or out of range.

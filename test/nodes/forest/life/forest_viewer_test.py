@@ -114,6 +114,23 @@ class ForestViewer(unittest.TestCase):
         self.assertLessEqual(values['Predicted frame time [ms]'], values['Frame time budget [ms]'])
         self.assertEqual(self.forest.view_level(WEST), 7)
 
+    # N9: what a viewer sees is off by pixels that are millimetres at the tree; a coarser tolerance
+    # costs less and is off by more.
+    def test_errors_are_published_beside_their_costs(self):
+        def errors(tolerance):
+            self.server.update_configuration({'tolerance': tolerance})
+            self.view_from(BESIDE_WEST)
+            return self.forest.predicted_errors('/forest/errors')
+        fine, coarse = errors(1.0), errors(20.0)
+        self.server.update_configuration({'tolerance': 1.0})
+        view = fine['forest/view']
+        self.assertTrue(0.0 < view.pixels <= 1.0 or view.over > 0, view.pixels)
+        self.assertTrue(1e-5 < view.metres < 0.1, view.metres)
+        self.assertGreater(coarse['forest/view'].pixels, view.pixels)
+        self.assertLess(coarse['forest/view'].cost, view.cost)
+        self.assertEqual((view.unit, coarse['forest/view'].tolerance), ('ms', 20.0))
+        self.assertEqual(fine['forest/state'].pixels, 0.0)
+
 
 if __name__ == '__main__':
     rospy.init_node('forest_viewer_test')

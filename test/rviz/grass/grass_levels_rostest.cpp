@@ -1,0 +1,123 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+// Strips on the edges of tiles, and discs of colour at every level of detail.
+#include <iostream>
+
+#include "rviz/rigs/grass_display_fixture.h"
+
+namespace vegetation_sim {
+namespace {
+
+// S2-18: a disc that colours the grass is visible among blades, among strips and in the texture of
+// the ground alone, and it is gone with its message.
+TEST_F(GrassDisplayTest, ShowsDiscsOfColourAtEveryLevel) {
+  GrassColours dry;
+  dry.header.frame_id = "map";
+  dry.header.stamp.fromSec(rig.now());
+  GrassColour disc;
+  disc.radius = 9.0;
+  disc.colour = 1.0;
+  disc.weight = 50.0;
+  for (const bool blades : {true, false})
+    for (const bool strips : {true, false}) {
+      display->subProp("Single Blades")->setValue(blades);
+      display->subProp("Strips")->setValue(strips);
+      dry.colours.clear();
+      rig.publish(dry);
+      rig.publishMeadow(GrassRig::meadow(TILES), 0.0);
+      rig.frames(60);
+      const ImageStatistics before = rig.imageStatistics();
+      dry.colours = {disc};
+      rig.publish(dry);
+      EXPECT_TRUE(rig.until([&] { return rig.imageStatistics().green < before.green - 0.1; }))
+          << blades << strips << " green " << before.green << " and "
+          << rig.imageStatistics().green;
+    }
+  dry.colours.clear();
+  rig.publish(dry);
+}
+
+// S2-10, S2-12, S2-14: strips on the edges of tiles, as paper 2 has them, or rows in them. The
+// errors are those against a picture of single blades.
+TEST_F(GrassDisplayTest, DrawsStripsOnEdgesOrInRows) {
+  setCamera(0.2, 14.0);
+  rig.publishMeadow(GrassRig::meadow(TILES), 0.0);
+  display->subProp("Blades")->setValue(100000);
+  display->subProp("Tolerance")->setValue(0.5);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().blades > 40000; }))
+      << display->drawn().blades;
+  rig.frames(60);
+  const std::vector<std::uint8_t> blades = rig.picture();
+  display->subProp("Single Blades")->setValue(false);
+  display->subProp("Tolerance")->setValue(8.0);
+  double error[2];
+  std::size_t triangles[2];
+  for (const bool edges : {false, true}) {
+    display->subProp("Strips on Edges")->setValue(edges);
+    ASSERT_TRUE(rig.until([&] { return display->drawn().stripped > 20; }));
+    rig.frames(60);
+    error[edges] = changed(blades);
+    triangles[edges] = display->drawn().triangles;
+    std::cout << (edges ? "edges" : "rows") << ": " << triangles[edges] << " triangles on "
+              << display->drawn().stripped << " tiles, error " << error[edges] << " of 255\n";
+  }
+  EXPECT_EQ(triangles[0] - triangles[1], (36u - 32u) * display->drawn().stripped);  // of a tile
+  display->subProp("Strips")->setValue(false);
+  rig.frames(60);
+  EXPECT_LT(error[0], changed(blades));
+  EXPECT_LT(error[1], changed(blades));
+}
+
+// N7: frames that take longer than wanted have fewer blades, whatever takes the time.
+TEST_F(GrassDisplayTest, DrawsFewerBladesWhileFramesTakeTooLong) {
+  display->subProp("Blades")->setValue(20000);
+  ASSERT_TRUE(settled());
+  const std::size_t all = display->drawn().blades;
+  display->subProp("Frame Time")->setValue(1.0);  // less than any frame takes
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.05);
+    return display->drawn().blades < all / 3;
+  })) << display->drawn().blades
+      << " of " << all;
+  display->subProp("Frame Time")->setValue(0.0);
+  EXPECT_TRUE(rig.until([&] {
+    rig.setTime(rig.now() + 0.05);
+    return display->drawn().blades > 2 * all / 3;
+  })) << display->drawn().blades
+      << " of " << all;
+}
+
+// S2-12: while blades give way to strips on edges, they move there, and the picture has no jump.
+TEST_F(GrassDisplayTest, BladesSlideToTheStripsOnEdges) {
+  display->subProp("Strips on Edges")->setValue(true);
+  display->subProp("Transition")->setValue(2.0);
+  setCamera(0.25, 10.0);
+  rig.publishMeadow(GrassRig::meadow(TILES), 0.0);
+  ASSERT_TRUE(settled());
+  const std::vector<std::uint8_t> before = rig.picture();
+  display->subProp("Tolerance")->setValue(40.0);
+  std::vector<std::uint8_t> last = before;
+  double step = 0.0, frame = rig.frameCount();
+  ASSERT_TRUE(rig.until([&] {
+    rig.frames(1);
+    const std::vector<std::uint8_t> next = rig.picture();
+    step = std::max(step, difference(last, next) / (rig.frameCount() - frame));
+    frame = rig.frameCount();
+    last = next;
+    return display->drawn().blades == 0;
+  }));
+  const double all = difference(before, last);
+  std::cout << "change from blades to strips: " << all << " of 255, largest step " << step << "\n";
+  EXPECT_GT(all, 1.0);
+  EXPECT_LT(step, 0.5 * all);
+}
+
+}  // namespace
+}  // namespace vegetation_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "grass_levels_test");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}
