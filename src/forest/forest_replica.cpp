@@ -9,9 +9,9 @@
 namespace vegetation_sim::forest {
 namespace {
 
-// Branches of trees that are counted to check one message, 10 to 20 ms; further trees wait for the
+// Branches of trees that are counted to check one message, about 20 ms; further trees wait for the
 // next key frame.
-constexpr std::size_t MOST_COUNTED = 131072;
+constexpr std::size_t MOST_COUNTED = 262144;
 constexpr std::size_t MOST_COUNTS = 65536;  // branch counts that are kept
 constexpr std::size_t MOST_AT_ONCE = 64;    // trees whose fine modes one message computes
 

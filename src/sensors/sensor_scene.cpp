@@ -23,6 +23,7 @@ namespace {
 void castPastTrees(const Scene& scene, const Ray& ray, const FloatRay& narrow, GrassGrain grain,
                    Hit& nearest) {
   scene.plants.meet(ray, narrow, nearest);
+  scene.crowns.meet(ray, narrow, nearest);
   scene.people.meet(ray, narrow, nearest);
   if (grain == GrassGrain::BLADES)
     scene.grass.meetBlades(ray, nearest);

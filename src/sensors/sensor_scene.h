@@ -7,6 +7,7 @@
 
 #include "sensors/grass/grass_volume.h"
 #include "sensors/people.h"
+#include "sensors/plants/crown_field.h"
 #include "sensors/plants/plant_field.h"
 #include "sensors/tree_field.h"
 
@@ -16,6 +17,7 @@ namespace vegetation_sim::scan {
 struct Scene {
   Trees trees;
   Plants plants;
+  Crowns crowns;  ///< of the trees, with leaves of a canopy
   GrassVolume grass;
   People people;
   std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};

@@ -63,6 +63,7 @@ double transmittance(const Scene& scene, const Ray& ray, double reach, double da
   const FloatRay narrow(ray);
   scene.people.meet(ray, narrow, solid);
   scene.plants.meet(ray, narrow, solid);
+  scene.crowns.meet(ray, narrow, solid);
   if (solid.label != Label::NONE) return 0.0;
   LightPath path(reach, dark);
   scene.trees.addDepth(ray, narrow, path);

@@ -113,6 +113,7 @@ void SensorBase::reportProblems(Status& status) {
   warnOfClock(status, counts.clock, reported_.clock);
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   warnOfMore(status, scene_.plants.leftOut(), 0, "plants in range left out because of leaf_budget");
+  warnOfMore(status, scene_.crowns.leftOut(), 0, "crowns in range left out because of leaf_budget");
   if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
   if (const std::string rivals = landscape_.rivals(); !rivals.empty())
@@ -133,6 +134,8 @@ void SensorBase::diagnose(Status& status) {
   status.add("Plants", scene_.plants.all().size());
   status.add("Leaves of plants", scene_.plants.leaves());
   status.add("Plants left out", scene_.plants.leftOut());
+  status.add("Crowns", scene_.crowns.all().size());
+  status.add("Leaves of crowns", scene_.crowns.leaves());
   status.add("People", landscape_.people());
   status.add("Messages ahead of the clock", landscape_.waiting());
   clock_.report(status);

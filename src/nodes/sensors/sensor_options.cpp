@@ -21,6 +21,7 @@ scan::Scene makeScene(const SensorOptions& options) {
   scan::Scene out;
   out.trees = scan::Trees(static_cast<std::size_t>(options.branch_budget));
   out.plants = scan::Plants(static_cast<std::size_t>(options.leaf_budget));
+  out.crowns = scan::Crowns(static_cast<std::size_t>(options.leaf_budget));
   return out;
 }
 

@@ -39,7 +39,7 @@ std::vector<SkyView> SkyViewer::view(const std::vector<Vec3>& places, Nanosecond
     for (const std::size_t i : groups[g].places)
       out[i] = toSkyView(scan::viewSky(scene, places[i], options_.sky_range, threads_), places[i],
                          scene);
-    left_out_ += scene.trees.leftOut() + scene.plants.leftOut();
+    left_out_ += scene.trees.leftOut() + scene.plants.leftOut() + scene.crowns.leftOut();
   }
   return out;
 }

@@ -42,6 +42,8 @@ Hit castPlain(const Scene& scene, const Ray& ray, double reach) {
   Hit out = castToGround(scene, ray, reach);
   meetEachBranch(scene.trees, ray, out);
   meetEachPlant(scene.plants, ray, out);
+  for (const auto& crown : scene.crowns.all())
+    for (std::size_t leaf = 0; leaf < crown->parts(); ++leaf) crown->meetLeaf(leaf, ray, out);
   for (std::size_t i = 0; i < scene.people.limbs(); ++i) scene.people.meetLimb(i, ray, out);
   scene.grass.meet(ray, out, GrassVolume::Cells::ALL);
   return out;

@@ -112,8 +112,8 @@ ScanReport toReport(const std::vector<scan::Return>& returns, int per_ray,
   out.branches = static_cast<std::uint32_t>(scene.trees.branches());
   out.left_out = static_cast<std::uint32_t>(scene.trees.leftOut());
   out.plants = static_cast<std::uint32_t>(scene.plants.all().size());
-  out.leaves = static_cast<std::uint32_t>(scene.plants.leaves());
-  out.plants_left_out = static_cast<std::uint32_t>(scene.plants.leftOut());
+  out.leaves = static_cast<std::uint32_t>(scene.plants.leaves() + scene.crowns.leaves());
+  out.plants_left_out = static_cast<std::uint32_t>(scene.plants.leftOut() + scene.crowns.leftOut());
   return out;
 }
 
@@ -128,7 +128,8 @@ SkyView toSkyView(const scan::SkyTransmittance& sky, const Vec3& place, const sc
                  [](double bin) { return static_cast<float>(bin); });
   out.open_share = static_cast<float>(sky.open_share);
   out.sky_view_factor = static_cast<float>(sky.sky_view_factor);
-  out.left_out = static_cast<std::uint32_t>(scene.trees.leftOut() + scene.plants.leftOut());
+  out.left_out = static_cast<std::uint32_t>(scene.trees.leftOut() + scene.plants.leftOut() +
+                                            scene.crowns.leftOut());
   return out;
 }
 

@@ -51,13 +51,13 @@ std::size_t findEndOfHeader(const std::string& bytes) {
 /// Rejects text at which assimp does not end.
 void checkText(const std::string& name, const std::string& ending, const std::string& bytes) {
   const std::size_t header = findEndOfHeader(bytes);
-  if (ending == "ply" && header == std::string::npos)
-    throw InvalidInput(name + ": no mesh: the header has no line end_header");
   const bool is_text =
       ending == "obj" || ending == "dae" ||
       (ending == "ply" && bytes.rfind("format ascii", header) != std::string::npos);
   if (is_text && bytes.find('\0') != std::string::npos)
     throw InvalidInput(name + ": no mesh: a byte of a text file is zero");
+  if (ending == "ply" && header == std::string::npos)
+    throw InvalidInput(name + ": no mesh: the header has no line end_header");
 }
 
 /// Removes the readers of other files: assimp tries them if the file's own reader rejects it.

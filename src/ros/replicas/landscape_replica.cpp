@@ -3,6 +3,7 @@
 #include "ros/replicas/landscape_replica.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace vegetation_sim {
@@ -20,7 +21,7 @@ ReplicaOptions delayed(ReplicaOptions options) {
 LandscapeReplica::LandscapeReplica(ReplicaOptions options)
     : forest_(delayed(options)),
       meadow_(delayed(options)),
-      canopy_(delayed(options), SubscribedCanopy::Crowns::IGNORE),
+      canopy_(delayed(options), SubscribedCanopy::Forest::GIVEN),
       crowd_(delayed(options)) {}
 
 void LandscapeReplica::subscribe(ros::NodeHandle handle) {
@@ -70,10 +71,33 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
                        radius, stamp);
     scene.grass.setColours(meadow_.colours().at(stamp));
   }
-  if (canopy::Replica* plants = canopy_.replica())
+  if (canopy::Replica* plants = canopy_.replica()) {
+    if (forest.ready()) canopy_.updateCrowns(forest_);
     scene.plants.update(plants->layout(), plants->layoutHash(), plants->foliageOfPlane(), centre,
                         radius, threads);
+    scene.crowns.update(crownsOf(scene.trees, stamp), canopy_.layouts(), plants->foliageOfPlane(),
+                        centre, threads);
+  }
   scene.people.set(peopleAt(stamp));
+}
+
+// Returns the crowns of the trees around a sensor, which are the nearest first.
+std::vector<scan::CrownSource> LandscapeReplica::crownsOf(const scan::Trees& trees,
+                                                          Nanoseconds stamp) const {
+  std::vector<scan::CrownSource> out;
+  const std::vector<LeafedCrowns::Crown>& crowns = canopy_.crowns().crowns();
+  std::multimap<std::uint32_t, std::size_t> by_tree;
+  for (std::size_t i = 0; i < crowns.size(); ++i) by_tree.emplace(crowns[i].tree, i);
+  for (const auto& tree : trees.all()) {
+    const auto found = by_tree.equal_range(tree->id());
+    for (auto each = found.first; each != found.second; ++each) {
+      const std::size_t i = each->second;
+      out.push_back({crowns[i].tree, &crowns[i].leaves, &crowns[i].rest, [this, i, stamp] {
+                       return canopy_.crowns().wood(i, forest_.replica(), stamp);
+                     }});
+    }
+  }
+  return out;
 }
 
 // A sweep lies between two ticks of the crowd.

@@ -42,6 +42,7 @@ class LandscapeReplica {
 
  private:
   std::shared_ptr<const terrain::HeightMap> ground() const;
+  std::vector<scan::CrownSource> crownsOf(const scan::Trees& trees, Nanoseconds stamp) const;
   std::vector<scan::People::Person> peopleAt(Nanoseconds stamp) const;
 
   SubscribedForest forest_;

@@ -33,7 +33,7 @@ void SubscribedCanopy::setLayout(const CanopyLayout& message) {
     ++layouts_;
     crowns_.clear();
     const canopy::Layout& layout = replica_->layout();
-    if (layout.crowns.empty() || crowns_wanted_ == Crowns::IGNORE) {
+    if (layout.crowns.empty() || whose_forest_ == Forest::GIVEN) {
       forest_.reset();
     } else if (!forest_) {
       forest_ =
@@ -64,7 +64,11 @@ void SubscribedCanopy::apply(const CanopyState& message) {
 }
 
 void SubscribedCanopy::updateCrowns() {
-  if (!forest_ || !crowns_.update(replica_->layout(), *forest_)) return;
+  if (forest_) updateCrowns(*forest_);
+}
+
+void SubscribedCanopy::updateCrowns(const SubscribedForest& forest) {
+  if (!replica_ || !crowns_.update(replica_->layout(), forest)) return;
   replica_->setCrowns(crowns_.boxes());
   ++layouts_;
   ++changes_;

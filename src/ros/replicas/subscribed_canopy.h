@@ -22,10 +22,10 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
     SubscribedForest::Topics forest;  ///< used only if the layout has crowns
   };
 
-  /// Whether the forest is subscribed for the crowns of a layout.
-  enum class Crowns { FOLLOW, IGNORE };
-  explicit SubscribedCanopy(const ReplicaOptions& options = {}, Crowns crowns = Crowns::FOLLOW)
-      : SubscribedReplica(options), crowns_wanted_(crowns) {}
+  /// Whether the forest is subscribed for the crowns of a layout, or the user has it.
+  enum class Forest { OWN, GIVEN };
+  explicit SubscribedCanopy(const ReplicaOptions& options = {}, Forest forest = Forest::OWN)
+      : SubscribedReplica(options), whose_forest_(forest) {}
   ~SubscribedCanopy() override { subscribers_.clear(); }
 
   /// @throws ros::InvalidNameException also for the topics of the forest.
@@ -35,6 +35,8 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
   bool accepts(const CanopyState& message) override;
   /// Grows the crowns if the layout of the forest has changed.
   void updateCrowns();
+  /// Does the same with a forest of the user.
+  void updateCrowns(const SubscribedForest& forest);
   /// Time jumped back to `now`: a later state is dropped, and all leaves are at rest until the next
   /// state.
   void forgetLater(Nanoseconds now);
@@ -65,7 +67,7 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
  private:
   void restart(const canopy::Layout& layout);
 
-  Crowns crowns_wanted_;
+  Forest whose_forest_;
   ros::NodeHandle handle_;
   SubscribedForest::Topics forest_topics_;
   std::unique_ptr<SubscribedForest> forest_;

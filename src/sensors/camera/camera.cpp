@@ -71,6 +71,7 @@ class Picture {
     const FloatRay narrow(ray);
     scene_.people.meet(ray, narrow, solid);
     scene_.plants.meet(ray, narrow, solid);
+    scene_.crowns.meet(ray, narrow, solid);
     if (solid.label != Label::NONE) return 0.0;
     LightPath path(camera_.range_max, DARK);
     scene_.trees.addDepth(ray, narrow, path);

@@ -4,15 +4,12 @@
 
 #include <utility>
 
+#include "sensors/plants/leaf_strip.h"
+
 namespace vegetation_sim::scan {
 namespace {
 
 constexpr double STEM_TAPER = 0.5;  // radius of a stem's tip over that of its base, as displayed
-
-Strip stripOf(const canopy::Leaf& leaf, const canopy::MovedLeaf& moved) {
-  return {moved.root, moved.tip, double{leaf.root_width} * moved.side,
-          double{leaf.tip_width} * moved.side};
-}
 
 // Wind does not move faces of wood; their side turns with their ends.
 Strip rigidStrip(const canopy::Leaf& leaf, const canopy::Foliage& foliage, std::size_t plant) {

@@ -2,7 +2,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests crowns with canopy leaves on trees of the forest: a branch that is held moves its leaves
-(S3-W2)."""
+(S3-W2), and the lidar sees them (N1)."""
 import unittest
 
 import rospy
@@ -10,8 +10,9 @@ import rostest
 from visualization_msgs.msg import MarkerArray
 
 from canopy_rig import Leaves
-from forest_rig import RATE, TickClock
+from forest_rig import RATE, TickClock, time_of
 from grab_rig import LIMB, Hands, minus, size, vector
+from scan_rig import Mast, Scanner
 from watched_node import Log
 
 PULL = (0.15, 0.0, 0.05)
@@ -24,10 +25,22 @@ class CanopyCrowns(unittest.TestCase):
         cls.hands, cls.leaves = Hands(cls.clock), Leaves()
         cls.markers = Log('/canopy/markers', MarkerArray)
         cls.leaves.wait_until_up('/wind')
+        cls.scanner = Scanner()
+        cls.scanner.wait_until_up('/canopy/layout', '/canopy/state', '/forest/layout', '/forest/state')
         cls.clock.begin(cls.hands)
+        cls.mast = Mast(cls.scanner)
 
     def run_all(self):
         self.clock.run(3, self.hands, self.leaves)
+
+    def test_the_lidar_sees_the_leaves(self):
+        def seen(reports):
+            return reports and reports[-1].leaves == 2000
+
+        def turn():
+            self.mast.put(-4.0, 0.0, 2.0, time_of(self.clock.tick + 3))
+            self.run_all()
+        self.scanner.report.wait(seen, 'a sweep with the leaves of the crown', turn)
 
     def newest(self):
         """Returns the points of the leaves as soon as there are some."""

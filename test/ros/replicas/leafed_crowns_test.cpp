@@ -9,6 +9,7 @@
 
 #include "package_folder.h"
 #include "scenes/canopy/canopy_scene.h"
+#include "sensors/plants/crown_field.h"
 
 namespace vegetation_sim {
 namespace {
@@ -170,6 +171,52 @@ TEST_F(LeafedOak, OnlyTheCrownOfABrokenTreeIsGrownAgain) {
   LeafedCrowns anew;
   anew.grow(layout_, forest_);
   EXPECT_EQ(anew.crowns()[1].leaves.size(), crowns_.crowns()[1].leaves.size());
+}
+
+/// Rays that look at the middles of the leaves from a centimetre beside them.
+std::vector<scan::Ray> raysAt(const std::vector<canopy::MovedLeaf>& leaves) {
+  std::vector<scan::Ray> out;
+  for (const canopy::MovedLeaf& leaf : leaves) {
+    const Vec3 normal = Vec3(leaf.tip - leaf.root).cross(leaf.side).normalized();
+    out.emplace_back(0.5 * (leaf.root + leaf.tip) + 0.01 * normal, -normal);
+  }
+  return out;
+}
+
+// N1: leaves are where they are drawn, those of a held branch too.
+TEST_F(LeafedOak, SensorsMeetTheLeavesWhereTheyHaveMovedTo) {
+  canopy::Canopy canopy(layout_);
+  const auto& foliage = canopy.foliage();
+  const LeafedCrowns::Crown& crown = crowns_.crowns()[0];
+  const scan::CrownSource source{crown.tree, &crown.leaves, &crown.rest,
+                                 [&] { return crowns_.wood(0, forest_, canopy::tickStamp(1)); }};
+  scan::Crowns met;
+  ThreadPool threads(2);
+  const auto count = [&](const std::vector<scan::Ray>& rays) {
+    int out = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      scan::Hit hit;
+      hit.distance = 0.011;
+      met.meet(rays[i], scan::FloatRay(rays[i]), hit);
+      if (hit.label == scan::Label::NONE) continue;
+      EXPECT_EQ(hit.label, scan::Label::LEAF);
+      EXPECT_EQ(hit.plant, 0u);
+      out += hit.branch == static_cast<int>(crown.leaves[i].twig);
+    }
+    return out;
+  };
+  met.update({source}, 1, foliage, Vec3::Zero(), threads);
+  const auto before = raysAt(leaves(foliage));
+  const int all = count(before);
+  EXPECT_GT(all, static_cast<int>(0.95 * static_cast<double>(before.size())));
+  bend(forest_.grow(0).skeleton.depth_end[0] + 2, 0.4);
+  met.update({source}, 1, foliage, Vec3::Zero(), threads);
+  EXPECT_LT(count(before), all - 20);
+  EXPECT_GE(count(raysAt(leaves(foliage))), all - 20);
+  scan::Crowns few(100);
+  few.update({source, source}, 1, foliage, Vec3::Zero(), threads);
+  EXPECT_EQ(few.all().size(), 1u);
+  EXPECT_EQ(few.leftOut(), 1u);
 }
 
 }  // namespace
