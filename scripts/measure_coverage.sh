@@ -16,7 +16,8 @@ tests=(canopy core crowd dynamics forest fuzz golden grass reference ros sensors
 mkdir -p "$BUILD"
 launcher=()
 ! command -v ccache >/dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake -S "$ROOT" -B "$BUILD" -G Ninja -DCMAKE_BUILD_TYPE=None '-DCMAKE_CXX_FLAGS=-O1 --coverage -fprofile-update=atomic' \
+cmake -S "$ROOT" -B "$BUILD" -G Ninja -DCMAKE_BUILD_TYPE=None \
+  '-DCMAKE_CXX_FLAGS=-O1 --coverage -fprofile-update=atomic' \
   -Dvegetation_sim_RVIZ=OFF -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_DEVEL_PREFIX="$DEVEL" \
   "${launcher[@]}" >"$BUILD/configure.log" 2>&1 || { tail -n 30 "$BUILD/configure.log" >&2; exit 1; }
 cmake --build "$BUILD" --parallel "$(nproc)" --target all "${tests[@]/%/_test}" >"$BUILD/build.log" ||
