@@ -16,7 +16,7 @@ from geometry_msgs.msg import (Point, PointStamped, Quaternion, Transform, Trans
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import srv
-from vegetation_sim.msg import AgentSpawn, ErrorCode, GrassCut, TreadLaw, WindPrimitive
+from vegetation_sim.msg import AgentSpawn, ErrorCode, GrassColour, GrassCut, TreadLaw, WindPrimitive
 
 from forest_rig import RATE, TickClock
 from given import given
@@ -91,6 +91,8 @@ REQUESTS = {
          'header.seq', 'cut.outline.0.z')],
     '/grass_field/sample': [
         (srv.SampleGrassRequest(points=[PLACE.point]), 'header', 'points.0.z')],
+    '/grass_field/set_colours': [
+        (srv.SetGrassColoursRequest(colours=[GrassColour(radius=2.0, colour=0.5, weight=1.0)]),)],
     '/grass_field/tread': [(srv.TreadRequest(points=[PLACE.point], law=LAW),
          'header.seq', 'points.0.z')],
     '/canopy_animator/cut': [
