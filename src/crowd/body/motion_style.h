@@ -64,7 +64,7 @@ struct MotionStyle {
   double stand_period{4.0};  ///< [s]
 };
 constexpr std::size_t MOST_STYLES = 16;
-constexpr double LARGEST_ANGLE = 3.2;  ///< of a key [rad]
+constexpr double LARGEST_ANGLE = 3.25;  ///< of a key [rad]; exact in single precision, as sent
 using MotionStyles = std::vector<MotionStyle>;
 
 /// The styles of the package, made by formulas: "calm", "brisk" and "tired".

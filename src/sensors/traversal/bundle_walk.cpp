@@ -133,6 +133,7 @@ bool haveEqualSigns(const FloatRay& a, const FloatRay& b) {
 }  // namespace
 
 int countBundled(const Ray* rays, const FloatRay* narrow, int count) {
+  if (!narrow[0].valid) return 1;
   int out = 1;
   for (; out < std::min(count, RayBundle::MOST_RAYS); ++out)
     if (!narrow[out].valid || !haveEqualSigns(narrow[0], narrow[out]) ||

@@ -148,6 +148,7 @@ TEST(RayBundle, HasEqualSignsSimilarDirectionsAndAtMostItsNumberOfRays) {
   EXPECT_EQ(count({forward, turned(9.8), turned(10.2)}), 2);
   EXPECT_EQ(count({forward, turned(-1.0)}), 1) << "the sign of y differs";
   EXPECT_EQ(count({forward, Ray(origin, Vec3(1, std::nan(""), 0))}), 1);
+  EXPECT_EQ(count({Ray(Vec3(std::nan(""), 0, 0), Vec3(1, 0, 0)), forward}), 1);
 }
 
 // Rounded down, a radius would keep rays from rods that they hit.
