@@ -80,7 +80,7 @@ BeamTile tileOf(const Beams& b) {
   out.columns = RayBundle::MOST_RAYS / out.rings;
   while (out.rings > 1 && out.rings * up > out.columns * across) {
     out.rings = (out.rings + 1) / 2;
-    out.columns *= 2;
+    out.columns = RayBundle::MOST_RAYS / out.rings;
   }
   return out;
 }

@@ -52,7 +52,7 @@ class BeamDirections {
 struct BeamTile {
   int rings, columns;
 };
-/// Returns the shape of about RayBundle::MOST_RAYS neighbouring beams that spread equally in both
+/// Returns the shape of at most RayBundle::MOST_RAYS neighbouring beams that spread equally in both
 /// directions. A tile at an end may have fewer.
 BeamTile tileOf(const Beams& beams);
 /// Returns when a column is measured, after the beginning of a sweep [s]. The sensor turns

@@ -41,7 +41,7 @@ Hit cast(const Scene& scene, const Ray& ray, double reach, GrassGrain grain) {
   return out;
 }
 
-std::vector<Hit>& RayCaster::cast(const std::vector<Ray>& rays) {
+const std::vector<Hit>& RayCaster::cast(const std::vector<Ray>& rays) {
   narrow_.clear();
   hits_.clear();
   for (const Ray& ray : rays) {

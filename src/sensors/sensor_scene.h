@@ -23,18 +23,19 @@ struct Scene {
   std::shared_ptr<const terrain::HeightMap> ground{std::make_shared<const terrain::HeightMap>()};
 };
 
-/// Returns the nearest hit within `reach` [m], or Label::NONE.
+/// Returns the nearest hit within `reach` [m], or Label::NONE: one ray, and the reference of
+/// RayCaster.
 Hit cast(const Scene& scene, const Ray& ray, double reach, GrassGrain grain = GrassGrain::CUBES);
 
 /// Casts rays whose neighbours in a list are neighbours in space, such as those of adjoining beams:
-/// they are led through the trees together. The hits are those of cast(). Has the memory of one
+/// they traverse the trees together. The hits are those of cast(). Has the memory of one
 /// thread.
 class RayCaster {
  public:
   RayCaster(const Scene& scene, double reach, GrassGrain grain = GrassGrain::CUBES)
       : scene_(scene), reach_(reach), grain_(grain) {}
   /// Returns the hit of each ray, until the next call.
-  std::vector<Hit>& cast(const std::vector<Ray>& rays);
+  const std::vector<Hit>& cast(const std::vector<Ray>& rays);
 
  private:
   const Scene& scene_;

@@ -262,9 +262,10 @@ Skeleton skeletonOf(const Walker& w, const terrain::HeightMap& terrain) {
 Skeleton skeletonOf(const Walker& w, const terrain::HeightMap& terrain, const MotionStyles& styles,
                     double seconds) {
   const Axes axes = axesOf(w);
+  const MotionStyle& style = styleOf(w.id, styles);
   const ChannelAngles angles =
-      blendAngles(styleOf(w.id, styles), footPhase(w, 0), gaitAmplitude(speedOf(w), w.height),
-                  w.turn_rate, seconds);
+      blendAngles(style, footPhase(w, 0), gaitAmplitude(speedOf(w), w.height), w.turn_rate,
+                  seconds + standingSince(w.id, style));
   return buildBody(w, axes, styledPosture(w, axes, terrain, angles), terrain);
 }
 

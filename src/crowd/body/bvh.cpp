@@ -144,8 +144,9 @@ class BvhReader {
 
   void readFrames(std::size_t frames) {
     if (out_.channels == 0) fail("the joints have no channels");
-    if (frames * out_.channels > MOST_VALUES)
-      fail(std::to_string(frames * out_.channels) + " numbers in all frames, allowed are " +
+    const std::size_t size = frames * std::max(out_.channels, out_.joints.size());
+    if (size > MOST_VALUES)
+      fail(std::to_string(size) + " numbers or joints in all frames, allowed are " +
            std::to_string(MOST_VALUES));
     for (std::size_t i = 0; i < frames * out_.channels; ++i)
       out_.values.push_back(readNumber("value of a channel", VALUES, ""));

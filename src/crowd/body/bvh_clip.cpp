@@ -211,22 +211,20 @@ Clip resample(const std::vector<ChannelAngles>& frames, const Cycle& cycle) {
   Clip::Keys keys;
   const std::size_t loop = frames.size() - 1;
   const bool wraps = cycle.first + cycle.frames >= frames.size();
-  const auto frameAt = [&](std::size_t i) -> const ChannelAngles& {
-    return frames[wraps ? (cycle.first + i) % loop : cycle.first + i];
-  };
-  const ChannelAngles &begin = wraps ? frames.front() : frameAt(0),
-                      &end = wraps ? frames.back() : frameAt(cycle.frames);
+  const ChannelAngles &begin = frames[wraps ? 0 : cycle.first],
+                      &end = frames[wraps ? loop : cycle.first + cycle.frames];
   for (std::size_t k = 0; k < Clip::KEYS; ++k) {
     const double at = static_cast<double>(k * cycle.frames) / Clip::KEYS;
-    const auto i = static_cast<std::size_t>(at);
-    const double part = at - static_cast<double>(i);
+    const auto whole = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(whole);
+    const std::size_t i = wraps ? (cycle.first + whole) % loop : cycle.first + whole;
     // Share of the way from the frame that has the one end to that which has the other.
     const double way =
         wraps ? std::fmod(static_cast<double>(cycle.first) + at, static_cast<double>(loop)) /
                     static_cast<double>(loop)
               : at / static_cast<double>(cycle.frames);
     for (std::size_t c = 0; c < CHANNELS; ++c)
-      keys[k][c] = std::clamp(frameAt(i)[c] + part * (frameAt(i + 1)[c] - frameAt(i)[c]) -
+      keys[k][c] = std::clamp(frames[i][c] + part * (frames[i + 1][c] - frames[i][c]) -
                                   (way - 0.5) * (end[c] - begin[c]),
                               -LARGEST_ANGLE, LARGEST_ANGLE);
   }
@@ -255,17 +253,14 @@ Clip clipOfTurn(const std::vector<ChannelAngles>& frames, double rate, const std
 
 Clip makeClip(const BvhMotion& motion, ClipKind kind, const std::string& name) {
   AngleMeter meter(motion, name);
-  std::vector<std::vector<Vec3>> places;
   Vec3 left = Vec3::Zero();
-  for (std::size_t i = 0; i < motion.frames(); ++i) {
-    places.push_back(meter.positionsAt(i));
-    left += meter.acrossHips(places.back());
-  }
+  for (std::size_t i = 0; i < motion.frames(); ++i) left += meter.acrossHips(meter.positionsAt(i));
   meter.setHeading(left);
   std::vector<ChannelAngles> frames;
   std::vector<double> stride;
   double turned = 0.0;
-  for (const std::vector<Vec3>& p : places) {
+  for (std::size_t i = 0; i < motion.frames(); ++i) {
+    const std::vector<Vec3> p = meter.positionsAt(i);
     if (kind == ClipKind::TURN) {
       if (!frames.empty()) turned += meter.yawOf(meter.acrossHips(p));
       meter.setHeading(meter.acrossHips(p));

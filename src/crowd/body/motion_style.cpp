@@ -130,6 +130,10 @@ const MotionStyle& styleOf(std::uint32_t id, const MotionStyles& styles) {
   return styles[Random(id).child(STYLES).bits(0) % styles.size()];
 }
 
+double standingSince(std::uint32_t id, const MotionStyle& style) {
+  return style.stand_period * Random(id).child(STYLES).uniform(1);
+}
+
 void check(const MotionStyles& styles, Faults& faults) {
   if (styles.empty() || styles.size() > MOST_STYLES)
     faults.add("styles are " + std::to_string(styles.size()) + ", allowed are 1 to " +

@@ -71,6 +71,8 @@ using MotionStyles = std::vector<MotionStyle>;
 const MotionStyles& ownStyles();
 /// Returns the style of an id, equal in every process. There must be one.
 const MotionStyle& styleOf(std::uint32_t id, const MotionStyles& styles);
+/// Returns how far a person is ahead in the period of standing [s], so that not all move alike.
+double standingSince(std::uint32_t id, const MotionStyle& style);
 /// Adds a fault for each number of styles, period or angle out of range.
 void check(const MotionStyles& styles, Faults& faults);
 

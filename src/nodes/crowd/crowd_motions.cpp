@@ -29,7 +29,13 @@ double readClip(YamlSection& section, const char* key, crowd::ClipKind kind, cro
 
 crowd::MotionStyles readMotions(YamlSection& section) {
   crowd::MotionStyles out;
-  for (YamlSection& entry : section.sections("motions")) {
+  std::vector<YamlSection> entries = section.sections("motions");
+  if (entries.size() > crowd::MOST_STYLES) {
+    section.fault("motions", "has " + std::to_string(entries.size()) + " styles, allowed are " +
+                                 std::to_string(crowd::MOST_STYLES));
+    return crowd::ownStyles();
+  }
+  for (YamlSection& entry : entries) {
     crowd::MotionStyle style = crowd::ownStyles().front();
     style.name = "style " + std::to_string(out.size() + 1);
     entry.text("name", style.name);

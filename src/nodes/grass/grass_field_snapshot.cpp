@@ -8,6 +8,17 @@
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t DISC_BYTES = 56;
+
+void archiveColours(Archive& a, grass::ColourMasks& colours) {
+  a.stamp("stamp of colours", colours.stamp);
+  a.list("colours", colours.list, grass::ColourMasks::MOST, DISC_BYTES,
+         [&a](grass::ColourMask& disc) { a.fields("colours", disc); });
+}
+
+}  // namespace
 
 // The law of sources can change while the node runs.
 std::uint64_t GrassField::sceneHash() const {
@@ -32,6 +43,8 @@ void GrassField::writeState(Archive& a) const {
   GrassSources::archive(a, sources);
   CutterFollower::State cutters = cutters_.state();
   CutterFollower::archive(a, cutters);
+  grass::ColourMasks colours = colours_;
+  archiveColours(a, colours);
 }
 
 CheckedState GrassField::readState(Archive& a) {
@@ -47,6 +60,8 @@ CheckedState GrassField::readState(Archive& a) {
   GrassSources::archive(a, sources);
   CutterFollower::State cutters;
   CutterFollower::archive(a, cutters);
+  grass::ColourMasks colours;
+  archiveColours(a, colours);
   const grass::TreadSnapshot read = field_->readArchived(std::move(state), a.shift());
   return {read.hash(), [=] {
             applyTuning(tuning);
@@ -54,6 +69,7 @@ CheckedState GrassField::readState(Archive& a) {
             paths_ = paths;
             sources_.restore(sources);
             cutters_.restore(cutters);
+            setColours(colours.list, colours.stamp);
             key_frames_.demand();
           }};
 }

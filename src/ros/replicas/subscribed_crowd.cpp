@@ -10,7 +10,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double LONGEST_STEP = 0.5;  // between messages, for rates of turning [s]
+constexpr double LONGEST_STEP = 1.5;  // between messages, for rates of turning [s]
 
 }  // namespace
 
@@ -78,10 +78,11 @@ void SubscribedCrowd::apply(const CrowdView& message) {
 }
 
 void SubscribedCrowd::apply(const CrowdMotions& message) {
-  receive("agents/motions", status_, [&]() -> InputStatus {
+  receive("agents/motions", motions_status_, [&]() -> InputStatus {
+    requireFrame(message.header.frame_id);
     motions_ = fromMsg(message);
     if (changes_ > 0) ++changes_;
-    return status_;
+    return {true, std::to_string(motions_.size()) + " styles"};
   });
 }
 

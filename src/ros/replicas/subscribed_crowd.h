@@ -55,6 +55,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   /// Number of changes; 0: no message has been accepted.
   int changes() const { return changes_; }
   const InputStatus& status() const { return status_; }
+  /// Of the styles, whose last invalid message is ignored.
+  const InputStatus& motionsStatus() const { return motions_status_; }
 
  private:
   void clear(const char* why);
@@ -69,7 +71,7 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   Nanoseconds stamp_{0};
   int changes_{0}, seen_changes_{0};
   Nanoseconds changed_{0};  // time of the call of forgetUnchanged() after the last change
-  InputStatus status_;
+  InputStatus status_, motions_status_{true, "Own styles"};
 };
 
 }  // namespace vegetation_sim

@@ -79,6 +79,7 @@ view::CrowdReport CrowdDisplay::drawn() const {
 
 void CrowdDisplay::showInputs(view::StatusBoard& board, Nanoseconds /*now*/) const {
   board.show("People", source_->status());
+  board.show("Styles", source_->motionsStatus());
   board.show("Publishers", source_->publishers());
 }
 

@@ -63,20 +63,17 @@ void MeadowGround::collect(const SubscribedMeadow& meadow) {
 
 void MeadowGround::addTilesUnder(const std::vector<grass::ColourMask>& masks) {
   const grass::MapLaw& law = map_->law();
-  const auto tileAt = [&](double place, double origin, int most) {
-    return static_cast<int>(
-        std::clamp(std::floor((place - origin) / law.resolution), -1.0, static_cast<double>(most)));
+  const auto isIn = [&](int tile, double origin, double centre, double radius) {
+    const double low = origin + tile * law.resolution;
+    return centre + radius >= low && centre - radius <= low + law.resolution;
   };
-  for (const grass::ColourMask& m : masks) {
-    const int last_row = tileAt(m.centre.y + m.radius, law.origin_y, map_->tileRows() - 1);
-    const int last_column = tileAt(m.centre.x + m.radius, law.origin_x, map_->tileColumns() - 1);
-    const int first_column =
-        std::max(0, tileAt(m.centre.x - m.radius, law.origin_x, map_->tileColumns()));
-    for (int row = std::max(0, tileAt(m.centre.y - m.radius, law.origin_y, map_->tileRows()));
-         row <= last_row; ++row)
-      for (int column = first_column; column <= last_column; ++column)
+  for (int row = 0; row < map_->tileRows(); ++row)
+    for (int column = 0; column < map_->tileColumns(); ++column)
+      if (std::any_of(masks.begin(), masks.end(), [&](const grass::ColourMask& m) {
+            return isIn(row, law.origin_y, m.centre.y, m.radius) &&
+                   isIn(column, law.origin_x, m.centre.x, m.radius);
+          }))
         pressed_.insert({row, column});
-  }
 }
 
 // Repaints below discs that moved by a share of a tile, where they were and where they are.
@@ -99,8 +96,12 @@ void MeadowGround::update(const SubscribedMeadow& meadow,
   pressed_.insert(pressed.begin(), pressed.end());
   followColours(meadow, stamp);
   for (int i = 0; i < PRESSED_A_TIME && !pressed_.empty(); ++i) {
-    paint(meadow, *pressed_.begin(), stamp);
-    pressed_.erase(pressed_.begin());
+    // All have their turn, also while moving discs add the same ones again and again.
+    auto next = pressed_.upper_bound(painted_);
+    if (next == pressed_.end()) next = pressed_.begin();
+    painted_ = *next;
+    pressed_.erase(next);
+    paint(meadow, painted_, stamp);
   }
   if (round_.empty()) collect(meadow);
   for (int i = 0; i < IN_TURN_A_TIME && !round_.empty(); ++i) {

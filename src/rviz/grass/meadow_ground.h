@@ -45,6 +45,7 @@ class MeadowGround {
   std::unique_ptr<GroundVisual> ground_;
   std::set<std::pair<int, int>> tracks_;    // tiles with tracks in the texture
   std::set<std::pair<int, int>> pressed_;   // to be painted first
+  std::pair<int, int> painted_{-1, -1};     // the last of these that was painted
   std::vector<grass::ColourMask> masks_;    // with which the texture was painted last
   std::vector<std::pair<int, int>> round_;  // to be painted in turn
   grass::CrushPatch patch_;

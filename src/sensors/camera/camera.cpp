@@ -193,10 +193,6 @@ class ImageTaker {
 
 }  // namespace
 
-Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray) {
-  return cast(scene, ray, camera.range_max, GrassGrain::BLADES);
-}
-
 void describe(FieldVisitor& v, Camera& c) {
   v.number("range_min", c.range_min, "m", {0.0, 100.0});
   v.number("range_max", c.range_max, "m", {0.1, 500.0});
@@ -211,9 +207,10 @@ void check(const Camera& camera, const std::string& context, Faults& faults) {
     faults.add(context + "range_max = " + std::to_string(camera.range_max) +
                " is not above range_min = " + std::to_string(camera.range_min));
   const std::int64_t rays = std::int64_t{camera.lens.width} * camera.lens.height * camera.samples;
-  if (rays > MOST_RAYS)
+  if (rays > MOST_IMAGE_RAYS)
     faults.add(context + "samples = " + std::to_string(camera.samples) + " makes " +
-               std::to_string(rays) + " rays an image, allowed are " + std::to_string(MOST_RAYS));
+               std::to_string(rays) + " rays an image, allowed are " +
+               std::to_string(MOST_IMAGE_RAYS));
   check(camera.lens, context, faults);
 }
 

@@ -30,7 +30,7 @@ struct Camera {
 /// Visits all but the lens.
 void describe(FieldVisitor& visitor, Camera& camera);
 /// Largest number of rays of a picture: pixels times samples.
-constexpr std::int64_t MOST_RAYS = std::int64_t{1} << 24;
+constexpr std::int64_t MOST_IMAGE_RAYS = std::int64_t{1} << 24;
 /// Adds the faults of lens, ranges and number of rays.
 void check(const Camera& camera, const std::string& context, Faults& faults);
 
@@ -39,10 +39,6 @@ struct Wanted {
   bool colour{true}, depth{true}, label{true}, instance{true};
   bool any() const { return colour || depth || label || instance; }
 };
-
-/// Returns what a ray of a camera meets within range_max: each pixel of an image is that of the ray
-/// through its middle.
-Hit castForCamera(const Scene& scene, const Camera& camera, const Ray& ray);
 
 /// Images of one instant, row by row from the top; those not wanted are empty.
 struct Images {

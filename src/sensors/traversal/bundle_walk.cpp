@@ -51,15 +51,6 @@ HWY_INLINE void addFound(BundleWalk& walk, const WideNode& node, std::size_t slo
   prefetch(walk.groups + to.child[at]);
 }
 
-// Puts a node on the stack, above those that are farther; those below `begin` stay.
-HWY_INLINE void push(BundleWalk& walk, int begin, const WaitingChild& child) {
-  prefetch(walk.nodes + child.child);
-  int place = walk.count++;
-  for (; place > begin && walk.waiting[place - 1].entry < child.entry; --place)
-    walk.waiting[place] = walk.waiting[place - 1];
-  walk.waiting[place] = child;
-}
-
 bool findMany(BundleWalk& walk) {
   walk.found = 0;
   while (walk.count > 0 && walk.found <= BundleWalk::MOST_FOUND - WideNode::WIDTH) {
@@ -71,10 +62,12 @@ bool findMany(BundleWalk& walk) {
     for (unsigned bits = testBundle(walk, node, entries); bits != 0; bits &= bits - 1) {
       const auto slot = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const std::int32_t child = node.child[slot];
-      if (child >= 0)
-        push(walk, begin, {entries[slot], child});
-      else if (child != WideNode::EMPTY)
+      if (child >= 0) {
+        prefetch(walk.nodes + child);
+        insert(walk.waiting, walk.count, begin, {entries[slot], child});
+      } else if (child != WideNode::EMPTY) {
         addFound(walk, node, slot);
+      }
     }
   }
   return walk.found > 0;

@@ -6,7 +6,8 @@
 
 namespace vegetation_sim::scan {
 
-/// Rays with similar origins and directions. They are led through a tree together: a node is
+/// Rays with similar directions, and with similar origins, or else too many groups are found for
+/// them. They traverse a tree together: a node is
 /// tested once for all of them, with bounds of their origins and of their directions, and each ray
 /// is tested alone against the groups of rods that are found. Each ray has the candidates that it
 /// has alone, in an order that may differ.
@@ -22,7 +23,7 @@ struct RayBundle {
 /// directions have equal signs in it, and directions differ by at most 10 degrees.
 int countBundled(const Ray* rays, const FloatRay* narrow, int count);
 
-/// A bundle on its way through a tree of rods.
+/// Traversal of a tree of rods by a bundle.
 struct BundleWalk {
   /// @param nearest hit of each ray so far.
   BundleWalk(const WalkedTree& tree, const RayBundle& bundle, const Hit* nearest);

@@ -63,6 +63,14 @@ HWY_INLINE void prefetch(const void* place) {
     hwy::Prefetch(static_cast<const char*>(place) + std::ptrdiff_t{64} * line);
 }
 
+// Puts a child on the stack, above those that are farther; those below `begin` stay.
+HWY_INLINE void insert(WaitingChild* waiting, int& count, int begin, const WaitingChild& child) {
+  int place = count++;
+  for (; place > begin && waiting[place - 1].entry < child.entry; --place)
+    waiting[place] = waiting[place - 1];
+  waiting[place] = child;
+}
+
 struct Components {
   Lanes x, y, z;
 };

@@ -32,13 +32,8 @@ HWY_INLINE void push(WideWalk& walk, const WideNode& node, unsigned bits, const 
   const int begin = walk.count;
   for (; bits != 0; bits &= bits - 1) {
     const auto slot = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    const float entry = entries[slot];
-    const std::int32_t child = node.child[slot];
-    prefetch(walk, child);
-    int place = walk.count++;
-    for (; place > begin && walk.waiting[place - 1].entry < entry; --place)
-      walk.waiting[place] = walk.waiting[place - 1];
-    walk.waiting[place] = {entry, child};
+    prefetch(walk, node.child[slot]);
+    insert(walk.waiting, walk.count, begin, {entries[slot], node.child[slot]});
   }
 }
 

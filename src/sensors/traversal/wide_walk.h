@@ -74,7 +74,7 @@ struct WaitingChild {
   std::int32_t child;
 };
 
-/// A ray on its way through a tree; the nearest box is visited first.
+/// Traversal of a tree by a ray; the nearest box is visited first.
 struct WideWalk : PlacedRay {
   WideWalk(const WalkedTree& tree, const Ray& ray, const FloatRay& narrow, double distance);
 

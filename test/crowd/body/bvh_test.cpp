@@ -78,6 +78,11 @@ TEST(Bvh, RejectsHugeFiles) {
   std::string wide = "HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 0 ";
   for (int i = 0; i < 300; ++i) wide += "JOINT b { OFFSET 0 0 0 CHANNELS 0 } ";
   EXPECT_NE(errorOf(wide).find("more than 256 joints"), std::string::npos) << errorOf(wide);
+  std::string long_one = "HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 1 Xposition ";
+  for (int i = 0; i < 200; ++i) long_one += "JOINT b { OFFSET 0 0 0 CHANNELS 0 } ";
+  long_one += "} MOTION Frames: 100000 Frame Time: 0.01";
+  EXPECT_NE(errorOf(long_one).find("joints in all frames, allowed are 2000000"), std::string::npos)
+      << errorOf(long_one);
   EXPECT_NE(errorOf(std::string(LARGEST_BVH + 1, ' ')).find("allowed are"), std::string::npos);
 }
 

@@ -169,6 +169,40 @@ TEST(MotionStyle, TurnsAreMirrored) {
   EXPECT_DOUBLE_EQ(added(left, Channel::ARM_OUT, 1), added(right, Channel::ARM_OUT, 0));
 }
 
+TEST(MotionStyle, PeopleWhoStandDoNotMoveInStep) {
+  const MotionStyle& style = ownStyles().front();
+  std::set<int> tenths;
+  for (std::uint32_t id = 1; id <= 40; ++id)
+    tenths.insert(static_cast<int>(10.0 * standingSince(id, style) / style.stand_period));
+  EXPECT_EQ(*tenths.begin(), 0);
+  EXPECT_EQ(*tenths.rbegin(), 9);
+  EXPECT_GE(tenths.size(), 8U);
+}
+
+// A file with one strike of a heel is one cycle from there to there; the gap between its ends, of
+// 20 degrees, is spread over all of it.
+TEST(MotionStyle, AFileOfOneCycleIsWrappedWithoutAStep) {
+  const std::string file = PACKAGE_FOLDER "/config/motions/march_walk.bvh";
+  BvhMotion motion = parseBvh(readFile(file, LARGEST_BVH), file);
+  constexpr std::size_t FRAMES = 28, FIRST = 12;
+  motion.values.erase(motion.values.begin(),
+                      motion.values.begin() + static_cast<long>(FIRST * motion.channels));
+  motion.values.resize(FRAMES * motion.channels);
+  std::size_t spine = 0;
+  for (const BvhMotion::Joint& joint : motion.joints) {
+    if (joint.name == "Spine") break;
+    spine += joint.channels.size();
+  }
+  const std::size_t forward = spine + 1;  // its rotation about x
+  for (std::size_t i = 0; i < FRAMES; ++i)
+    motion.values[i * motion.channels + forward] = 20.0 * static_cast<double>(i) / (FRAMES - 1);
+  const Clip clip = makeClip(motion, ClipKind::WALK, file);
+  for (std::size_t k = 0; k < Clip::KEYS; ++k)
+    EXPECT_NEAR(angle(clip.keys()[k], Channel::TRUNK_PITCH),
+                angle(clip.keys()[(k + 1) % Clip::KEYS], Channel::TRUNK_PITCH), 2.0)
+        << k;
+}
+
 TEST(MotionStyle, RejectsMotionThatDoesNotFit) {
   const BvhMotion no_legs = parseBvh(
       "HIERARCHY ROOT hips { OFFSET 0 0 0 CHANNELS 1 Xrotation } MOTION Frames: 2 Frame Time: 0.1 "

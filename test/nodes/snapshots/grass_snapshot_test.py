@@ -7,7 +7,7 @@ import rostest
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, PointStamped
 from std_msgs.msg import Header
-from vegetation_sim.msg import GrassCut
+from vegetation_sim.msg import GrassColour, GrassCut
 
 from forest_rig import time_of
 from grass_rig import Feet, Meadow, step
@@ -42,11 +42,25 @@ class GrassSnapshot(SnapshotCase):
             answer = meadow.tread(header=Header(stamp=time_of(START + 100)),
                                   points=points((0, 0), (3, 2)))
             self.assertTrue(answer.success)
+        if tick == 40:
+            disc = GrassColour(x=1.0, y=2.0, radius=3.0, colour=0.5, weight=2.0, velocity_x=0.25)
+            self.assertTrue(meadow.set_colours(colours=[disc]).success)
         if tick == 110:
             self.assertTrue(meadow.tread(points=points((1, 0), (3, -2))).success)
         if tick == 112:
             centre = PointStamped(point=Point(1, 0, 0))
             self.assertTrue(meadow.clear(centre=centre, radius=0.5).success)
+
+    def test_discs_of_colour_come_back_with_a_snapshot(self):
+        node = self.start('coloured', 0)
+        self.run_to(node, 0, 60)
+        node.save('coloured')
+        before = node.client.at(1.0, 2.0).colour
+        self.assertTrue(node.client.set_colours(colours=[]).success)
+        after = node.client.at(1.0, 2.0).colour
+        self.assertNotAlmostEqual(before, after, 2)
+        node.load('coloured')
+        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, before, 6)
 
     def test_displays_get_a_complete_state_after_a_load(self):
         node = self.start('shown', 0)

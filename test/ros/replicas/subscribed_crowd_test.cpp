@@ -56,8 +56,11 @@ TEST(SubscribedCrowd, KeepsItsStylesWhenOthersAreInvalid) {
     spoil(message);
     crowd.apply(message);
     EXPECT_EQ(crowd.motions().size(), crowd::ownStyles().size());
-    return crowd.status().text;
+    return crowd.motionsStatus().text;
   };
+  const auto limit = static_cast<float>(crowd::LARGEST_ANGLE);
+  EXPECT_EQ(errorOf([=](CrowdMotions& m) { m.angles[7] = limit, m.angles[8] = -limit; }),
+            "3 styles");
   EXPECT_NE(errorOf([](CrowdMotions& m) { m.angles.pop_back(); }).find("angles has 5183 numbers"),
             std::string::npos);
   EXPECT_NE(errorOf([](CrowdMotions& m) { m.angles[7] = 4.f; }).find("angle = 4 rad is outside"),

@@ -89,7 +89,7 @@ TEST(Camera, ImagesHoldWhatRaysIntoTheSceneMeet) {
     for (int column = 0; column < camera.lens.width; ++column) {
       const auto i = static_cast<std::size_t>(row * camera.lens.width + column);
       const Ray ray = rayOf(camera, place.pose, column, row);
-      const Hit hit = castForCamera(place.scene, camera, ray);
+      const Hit hit = cast(place.scene, ray, camera.range_max, GrassGrain::BLADES);
       ++counts[static_cast<std::size_t>(hit.label)];
       ASSERT_EQ(images.label[i], static_cast<std::uint16_t>(hit.label));
       const bool object =

@@ -162,7 +162,7 @@ TEST(RodTreeSet, RoundsRadiiUp) {
   }
 }
 
-TEST(RodTreeSet, OfNoTreesOrEmptyTreesLeadsNowhere) {
+TEST(RodTreeSet, OfNoTreesOrEmptyTreesGivesNoHits) {
   std::size_t tested = 0;
   for (const int count : {0, 1}) Parts(count).cast(Ray(MIDDLE, Vec3::UnitX()), 1e300, tested);
   EXPECT_EQ(tested, 0u);
