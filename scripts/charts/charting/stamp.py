@@ -67,7 +67,7 @@ def commit():
 
 
 def read_all(folder):
-    """Returns the stamps of the charts in a folder by name."""
+    """Returns a map from the names of the charts in a folder to their stamps."""
     path = folder / FILE
     return json.loads(path.read_text()) if path.exists() else {}
 

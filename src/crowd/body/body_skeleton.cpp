@@ -97,7 +97,7 @@ struct ArmPose {
   double upper, fore, outward;
 };
 
-/// What the gait or a style decides.
+/// A posture is decided by the gait or a style.
 struct Posture {
   LegPose legs[2];
   ArmPose arms[2];

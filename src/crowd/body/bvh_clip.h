@@ -9,8 +9,8 @@
 
 namespace vegetation_sim::crowd {
 
-/// What a file of motion data shows: walking, of which one cycle is cut out that begins when the
-/// left heel strikes; standing, of which all frames are a cycle; turning at a steady rate, of which
+/// A file of motion data shows walking, of which one cycle is cut out that begins when the left
+/// heel strikes; standing, of which all frames are a cycle; or turning at a steady rate, of which
 /// yaw and roll of the trunk relative to the hips count.
 enum class ClipKind { WALK, STAND, TURN };
 

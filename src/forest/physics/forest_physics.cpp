@@ -120,8 +120,8 @@ void ForestPhysics::requestReview(const StepContext& context, std::uint32_t tree
   if (subtree != subtrees_.end()) subtree->second.setNextReview(0);
 }
 
-// By tree, those that bodies make physical begin with the review that all such trees share, so that
-// no review depends on grabs and pushes of other trees.
+// Reviews by tree of those that bodies make physical begin with the review that all such trees
+// share, so that none depends on grabs and pushes of other trees.
 void ForestPhysics::beginReviews(const StepContext& context, Nanoseconds start) {
   const bool is_due = start >= next_review_;
   if (is_due && !(context.reviews_by_tree && bodies_.empty())) next_review_ = start + REVIEW;

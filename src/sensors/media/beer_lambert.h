@@ -21,7 +21,7 @@ struct Cell {
 
 inline Cell cellAt(const Vec3& place, double size) {
   const auto index = [&](double at) {
-    // As std::floor of what std::fmax and std::fmin give, NaN included; those take longer.
+    // This equals std::floor of std::fmax and std::fmin, NaN included, which take longer.
     double x = at / size;
     x = x > -2e9 ? x : -2e9;
     x = x < 2e9 ? x : 2e9;

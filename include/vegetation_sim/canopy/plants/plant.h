@@ -36,7 +36,7 @@ enum class PlantShape : int {
 constexpr const char* RIGID_WORDS = "wood trunk bark branch stem twig bough";
 constexpr std::size_t LONGEST_RIGID_WORDS = 500;  ///< [characters]
 
-/// What a cell of slices is drawn as: leaves on a twig, or a puff of a cloud or of smoke (S3-W6).
+/// A cell of slices is drawn as leaves on a twig, or as a puff of a cloud or of smoke (S3-W6).
 enum class CellLook { LEAVES, PUFFS };
 
 /// Axis of a mesh that points up.
