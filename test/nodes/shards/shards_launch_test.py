@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""shards.launch starts all shards of a scenario, which find each other and publish their shares."""
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import ForestState, GrassState, ShardNode
+from vegetation_sim.srv import FindTrees, GetTree
+
+from watched_node import Log
+
+COUNT = 3
+
+
+class ShardsLaunch(unittest.TestCase):
+    def test_all_shards_run_and_answer_for_each_other(self):
+        for part, state in (('forest', ForestState), ('grass', GrassState)):
+            found = Log('/%s/shards' % part, ShardNode)
+            nodes = found.wait(lambda all: len(all) >= COUNT and {m.shard: m for m in all},
+                               'all shards')
+            self.assertEqual({i: (m.node, m.shards) for i, m in nodes.items()},
+                             {i: ('/%s_%d' % (part, i), COUNT) for i in range(COUNT)})
+            Log('/%s/state' % part, state).wait(
+                lambda all: {m.shard for m in all} == set(range(COUNT)), 'states of all')
+        rospy.wait_for_service('/forest_0/get_tree', timeout=60.0)
+        trees = rospy.ServiceProxy('/forest_0/find_trees', FindTrees)(all=True, limit=1).total
+        self.assertGreater(trees, COUNT)
+        levels = set()
+        for shard in range(COUNT):
+            get_tree = rospy.ServiceProxy('/forest_%d/get_tree' % shard, GetTree)
+            answers = [get_tree(tree=tree) for tree in (0, trees // 2, trees - 1)]
+            self.assertEqual([a.message for a in answers if not a.success], [])
+            levels.add(tuple(a.skeleton_hash for a in answers))
+        self.assertEqual(len(levels), 1)
+
+
+if __name__ == '__main__':
+    rospy.init_node('shards_launch_test')
+    rostest.rosrun('vegetation_sim', 'shards_launch', ShardsLaunch)
