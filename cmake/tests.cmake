@@ -116,9 +116,9 @@ endforeach()
 foreach(rostest ${rostests})
   add_rostest(${rostest} DEPENDENCIES ${ros_targets} ${rostest_targets} ${bench_targets})
 endforeach()
-# node.launch needs arguments that the other launch files give.
+# node.launch and shard.launch need arguments that other launch files give.
 file(GLOB launch_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} launch/*.launch)
-list(REMOVE_ITEM launch_files launch/node.launch)
+list(REMOVE_ITEM launch_files launch/node.launch launch/shard.launch)
 if(NOT with_rviz)  # demo.launch starts rviz
   list(REMOVE_ITEM launch_files launch/demo.launch launch/play.launch)
 endif()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grass/map/tile_owners.h"
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::grass {
@@ -120,7 +121,9 @@ void TreadSimulation::enter(TreadSourceState& source, const Vec3& from, const Ve
     const double v = std::floor((p.y() - law.origin_y) / law.resolution);
     const bool on = u >= 0.0 && v >= 0.0 && u < law.columns - 1.0 && v < law.rows - 1.0;
     const int column = on ? static_cast<int>(u) : -1, row = on ? static_cast<int>(v) : -1;
-    if (on && (column != source.column || row != source.row))
+    const Shard& shard = tread_.owners().shard();
+    if (on && (column != source.column || row != source.row) &&
+        (shard.count == 1 || tread_.owners().ownerOf(column, row) == shard.index))
       entered_.push_back({source.last.source, column, row});
     source.column = column;
     source.row = row;
@@ -250,6 +253,14 @@ TreadUpdate TreadSimulation::update(bool key_frame) {
   const CutMap::Nodes changed = tread_.cuts().takeChanged();
   out.treads.cuts = key_frame ? snapshotCuts(tread_.cuts().state())
                               : makeCutDelta(tread_.cuts().state(), changed);
+  // All shards know all cuts, since the mass that a cut lays down depends on those before.
+  const auto is_foreign = [this](const CutBlockDelta& block) {
+    return !tread_.owners().ownsBlock(block.row, block.column, tread_.cells());
+  };
+  auto& cuts = out.treads.cuts;
+  cuts.erase(std::remove_if(cuts.begin(), cuts.end(), is_foreign), cuts.end());
+  out.shard = tread_.owners().shard().index;
+  out.shards = tread_.owners().shard().count;
   if (key_frame) out.hash = hashOf(out.treads);
   touched_.clear();
   published_ = stamp_;
@@ -271,15 +282,16 @@ std::vector<Drag> TreadSimulation::drags() const {
   for (const auto& [name, source] : sources_) {
     if (source.last.body_frame.empty()) continue;
     Drag drag{name, source.last.body_frame, source.last.position, Vec3::Zero()};
+    Vec3 ahead = source.last.position;
     const Vec3 flat(source.velocity.x(), source.velocity.y(), 0.0);
     const double speed = length(flat);
     if (source.down && speed > 0.0) {
       // The drag is that of the grass ahead, not of what is trodden already.
-      const Vec3 ahead = source.last.position + (source.last.law.reach / speed) * flat;
+      ahead += (source.last.law.reach / speed) * flat;
       const double width = 2.0 * source.last.law.radius;
       drag.force = -width * resistanceAt({ahead.x(), ahead.y()}, stamp_) * flat;
     }
-    out.push_back(std::move(drag));
+    if (tread_.owners().ownsPlace(ahead.x(), ahead.y())) out.push_back(std::move(drag));
   }
   return out;
 }

@@ -65,6 +65,7 @@ class TreadSimulation {
   static constexpr double LEASE = 3.0;
   static constexpr double RENEWAL = 0.25;  ///< A standing source presses again after this time [s].
 
+  /// @param tread of one shard or of all; each shard takes the inputs of all.
   TreadSimulation(Layout layout, std::shared_ptr<const terrain::HeightMap> terrain,
                   const TreadSettings& treading, TreadMap& tread);
 
@@ -91,7 +92,7 @@ class TreadSimulation {
   /// Raises the grass everywhere; sources begin new passes.
   void raiseAll();
   /// Ends a tick: removes silent sources, presses again below standing ones, frees what has
-  /// recovered. @return the tiles that sources entered since the last call, in order.
+  /// recovered. @return the tiles of this shard that sources entered since the last call, in order.
   std::vector<Entering> advance(Nanoseconds stamp);
   /// Discards all state.
   void reset();
@@ -99,7 +100,8 @@ class TreadSimulation {
   /// Returns an update for replicas: a key frame, or what was pressed or cut since the last call.
   TreadUpdate update(bool key_frame);
 
-  /// Returns the drag on each source that has a body; it is zero above the gate and off the map.
+  /// Returns the drag on each source that has a body and the grass of this shard ahead of it; it is
+  /// zero above the gate and off the map.
   std::vector<Drag> drags() const;
   /// Returns the height of untrodden grass, or of its stubble [m].
   double heightAt(const Point& place) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grass/map/tile_owners.h"
 #include "grass/tread/tread_stroke.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -53,8 +54,11 @@ void describe(FieldVisitor& v, TreadSettings& s) {
   v.number("top_speed", s.top_speed, "m/s", {0.1, 1000.0});
 }
 
-TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings)
-    : law_(law), settings_(settings) {
+TreadMap::TreadMap(const MapLaw& law, const TreadSettings& settings,
+                   std::shared_ptr<const TileOwners> owners)
+    : law_(law),
+      settings_(settings),
+      owners_(owners ? std::move(owners) : std::make_shared<const TileOwners>()) {
   Faults faults;
   FieldChecker checker("treading: ", faults);
   describe(checker, settings_);
@@ -237,8 +241,20 @@ int TreadMap::pressBands(TreadStroke& stroke) {
   return touched;
 }
 
+// Whether the shard has a block in a band. Doses of other bands are not needed.
+bool TreadMap::ownsAnyOf(const TreadBand& band) const {
+  if (owners_->shard().count == 1) return true;
+  const int last_row = blockOf(band.first_row + band.rows - 1);
+  const int last_column = blockOf(band.first_column + band.pitch - 1);
+  for (int row = blockOf(std::max(0, band.first_row)); row <= last_row; ++row)
+    for (int column = blockOf(std::max(0, band.first_column)); column <= last_column; ++column)
+      if (owners_->ownsBlock(row, column, cells_)) return true;
+  return false;
+}
+
 // @return number of nodes within reach.
 int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
+  if (!ownsAnyOf(band)) return 0;
   prefetch(band);
   const TreadGrid grid = this->grid();
   measureBand(stroke.line, grid, band, presses_);
@@ -246,11 +262,12 @@ int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
   for (std::size_t i = 0; i < presses_.count;) {
     const std::uint64_t place = presses_.places[i], its_block = place & ITS_BLOCK;
     const auto row = static_cast<int>(place >> 32), column = static_cast<int>(place & 0xFFFFFFFF);
-    TreadBlock* const block = blockAt(blockOf(row), blockOf(column), true);
+    const bool owned = owners_->ownsBlock(blockOf(row), blockOf(column), cells_);
+    TreadBlock* const block = owned ? blockAt(blockOf(row), blockOf(column), true) : nullptr;
     for (; i < presses_.count && (presses_.places[i] & ITS_BLOCK) == its_block; ++i) {
       if (block)
         stroke.press(static_cast<float>(presses_.tilts[i]), grid, presses_.places[i], *block);
-      else
+      else if (owned)
         ++state_.counts.no_memory;
     }
     if (block) block->until = std::max(block->until, stroke.latest);

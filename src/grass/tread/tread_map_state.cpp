@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "grass/map/tile_owners.h"
 #include "grass/tread/tile_nodes.h"
 #include "grass/tread/tread_recovery.h"
 #include "vegetation_sim/core/math/hash.h"
@@ -88,6 +89,17 @@ void TreadMap::prune(Nanoseconds stamp) {
 void TreadMap::clear() {
   restore(TreadState());
   cuts_.restore(CutState());
+}
+
+void TreadMap::clearShard(const TileOwners& owners, std::uint32_t shard) {
+  const auto belongs = [&](int row, int column) {
+    return owners.ownerOfBlock(row, column, cells_) == shard;
+  };
+  for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
+    entry = belongs(entry->first.first, entry->first.second) ? state_.blocks.erase(entry)
+                                                             : std::next(entry);
+  cuts_.clear(belongs);
+  forgetRecent();
 }
 
 void TreadMap::restore(TreadState state) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "grass/map/tile_owners.h"
 #include "grass/tread/tread_recovery.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/grass/blades/blade.h"
@@ -149,27 +150,33 @@ TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>
 }
 
 std::uint64_t hashOf(const TreadDelta& treads) {
-  Hash hash;
-  for (const TreadBlockDelta& block : treads.blocks) {
+  std::uint64_t sum = 0;
+  const auto begin = [](const auto& block, std::uint64_t kind) {
+    Hash hash;
+    hash.add(kind);
     hash.add(static_cast<std::uint64_t>(block.row));
     hash.add(static_cast<std::uint64_t>(block.column));
     for (const std::uint8_t byte : block.included) hash.add(static_cast<std::uint64_t>(byte));
+    return hash;
+  };
+  for (const TreadBlockDelta& block : treads.blocks) {
+    Hash hash = begin(block, 0);
     for (const TreadNodeDelta& node : block.nodes) {
       for (const float value : {node.tilt, node.x, node.y, treads.presses[node.press].recovery})
         hash.add(double{value});
       hash.add(static_cast<std::uint64_t>(treads.presses[node.press].stamp));
     }
+    sum += hash.value();
   }
   for (const CutBlockDelta& block : treads.cuts) {
-    hash.add(static_cast<std::uint64_t>(block.row));
-    hash.add(static_cast<std::uint64_t>(block.column));
-    for (const std::uint8_t byte : block.included) hash.add(static_cast<std::uint64_t>(byte));
+    Hash hash = begin(block, 1);
     for (const CutNode& node : block.nodes) {
       hash.add(double{node.height});
       hash.add(node.swath);
     }
+    sum += hash.value();
   }
-  return hash.value();
+  return sum;
 }
 
 void check(const TreadDelta& treads, Faults& faults) {
@@ -208,18 +215,57 @@ int applyDelta(const TreadDelta& treads, TreadMap& map) {
   return refused;
 }
 
+TreadReplica::Part& TreadReplica::choosePart(const TreadUpdate& update, const TreadMap& map) {
+  const Shard shard{update.shard, std::max<std::uint32_t>(1, update.shards)};
+  Faults faults;
+  check(shard, faults);
+  const bool is_fixed =
+      std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_sequence; });
+  if (is_fixed && shard.count != shards())
+    faults.add("state: shards = " + std::to_string(shard.count) + ", but other messages have " +
+               std::to_string(shards()));
+  faults.throwIfAny();
+  if (shard.count != shards() || !owners_) {
+    owners_ = std::make_shared<const TileOwners>(map.law(), shard);
+    parts_.assign(shard.count, Part());
+  }
+  return parts_[shard.index];
+}
+
+void TreadReplica::checkBlocks(const TreadUpdate& update, const TreadMap& map) const {
+  if (shards() == 1) return;
+  const auto require = [&](const auto& block) {
+    const std::uint32_t owner = owners_->ownerOfBlock(block.row, block.column, map.cells());
+    if (owner != update.shard)
+      throw InvalidInput("state: block " + std::to_string(block.row) + ", " +
+                         std::to_string(block.column) + " belongs to shard " +
+                         std::to_string(owner) + ", but the message is of shard " +
+                         std::to_string(update.shard));
+  };
+  for (const TreadBlockDelta& block : update.treads.blocks) require(block);
+  for (const CutBlockDelta& block : update.treads.cuts) require(block);
+}
+
 bool TreadReplica::apply(const TreadUpdate& update, TreadMap& map) {
-  if (!update.key_frame && !(in_sequence_ && update.sequence == sequence_ + 1)) {
-    why_ = in_sequence_ ? "messages were lost" : why_.empty() ? "no key frame yet" : why_;
-    in_sequence_ = false;
+  Part& part = choosePart(update, map);
+  checkBlocks(update, map);
+  if (!update.key_frame && !(part.in_sequence && update.sequence == part.sequence + 1)) {
+    part.why = part.in_sequence   ? "messages were lost"
+               : part.why.empty() ? "no key frame yet"
+                                  : part.why;
+    part.in_sequence = false;
+    why_ = part.why;
     return false;
   }
-  if (update.key_frame) map.clear();
+  if (update.key_frame && shards() == 1) map.clear();
+  if (update.key_frame && shards() > 1) map.clearShard(*owners_, update.shard);
   const int refused = applyDelta(update.treads, map);
-  in_sequence_ = true;
-  sequence_ = update.sequence;
-  stamp_ = update.stamp;
-  why_ = refused > 0 ? std::to_string(refused) + " nodes are off the map or find no memory" : "";
+  part.in_sequence = true;
+  part.sequence = update.sequence;
+  part.stamp = update.stamp;
+  part.why =
+      refused > 0 ? std::to_string(refused) + " nodes are off the map or find no memory" : "";
+  why_ = part.why;
   return true;
 }
 

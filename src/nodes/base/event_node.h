@@ -9,6 +9,7 @@
 
 #include <boost/thread/recursive_mutex.hpp>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -113,11 +114,14 @@ class EventNode : public SavedNode<Queue, Options> {
     // The server writes its values back to the parameters: they are the checked ones by then.
     tuning_server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(mutex_, private_handle_);
     tuning_server_->setCallback([this](Config& config, std::uint32_t) { onTuning(config); });
+    if (options_.shard && options_.shard->count > 1)
+      this->joinShards(std::string(what) + "/shards", *options_.shard, options_.shard_wait);
     connect();
     this->subscribe("viewer", 10, &EventNode::onViewer);
     this->repeat(options_.markers_rate, &EventNode::sendMarkers);
     if (options_.replay) subscribeToRecorded();
-    this->serve("reset", &EventNode::onReset);
+    this->serveShared("reset", &EventNode::onReset, toAllShards<std_srvs::Trigger::Request>(),
+                      Repeat::ALLOWED, joinReplies<std_srvs::Trigger::Response>);
     this->serveSnapshots();
     this->startDiagnostics();
     if (clock_.hasBegun()) this->openServices();  // after a checkpoint
@@ -128,6 +132,14 @@ class EventNode : public SavedNode<Queue, Options> {
     clock_.stop();
     recorded_.shutdown();
     tuning_server_.reset();
+  }
+
+  /// The route of requests that concern all shards.
+  template <class Request>
+  typename Base::template ShardRoute<Request> toAllShards() const {
+    std::vector<std::uint32_t> all(options_.shard ? options_.shard->count : 1);
+    std::iota(all.begin(), all.end(), 0U);
+    return [all](Request&) { return all; };
   }
 
   /// Pose of a frame in the world frame. @throws InvalidInput if tf has no transform.
@@ -144,6 +156,7 @@ class EventNode : public SavedNode<Queue, Options> {
     if (is_other_version_ && recorded_.getNumPublishers() == 0) subscribeToRecorded();
     this->warnOfRivals(status);
     this->warnOfInterruptions(status);
+    this->addShards(status);
     warnOfClock(status, clock_.counts(), reported_clock_);
     warnOfLosses(status, inputs_.losses(), reported_losses_);
     reported_clock_ = clock_.counts();

@@ -67,13 +67,40 @@ void NodeBase::warnOfInterruptions(Status& status) {
 }
 
 void NodeBase::openServices() {
-  open_ = true;
+  const bool opens = !std::exchange(open_, true);
   for (const auto& advertise : closed_) services_.push_back(advertise());
   closed_.clear();
+  if (!opens || !shards_) return;
+  ShardNode message;
+  message.header.stamp = ros::Time::now();
+  message.shard = shards_->shard().index;
+  message.shards = shards_->shard().count;
+  message.node = shards_->registry().node();
+  shard_publisher_.publish(message);
+}
+
+void NodeBase::joinShards(const std::string& topic, const Shard& shard, double time_limit) {
+  shards_ = std::make_unique<ShardRequests>(private_handle_, shard, time_limit);
+  shard_publisher_ = handle_.advertise<ShardNode>(topic, 1, true);
+  const boost::function<void(const ShardNode&)> hear = [this, topic](const ShardNode& message) {
+    acceptInput(topic, [&] { shards_->registry().hear(message); });
+  };
+  subscribers_.push_back(handle_.subscribe<ShardNode>(topic, MOST_SHARDS, hear));
+}
+
+void NodeBase::addShards(Status& status) {
+  if (!shards_) return;
+  const std::string missing = shards_->registry().describeMissing();
+  if (open_ && !missing.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        "no node animates these of the " + std::to_string(shards_->shard().count) +
+                            " shards: " + missing);
+  status.add("Requests passed on to other shards", shards_->sent());
 }
 
 void NodeBase::stopCallbacks() {
   callbacks_.close();
+  if (shards_) shards_->stop();
   diagnostics_timer_.stop();
   beat_timer_.stop();
   timers_.clear();

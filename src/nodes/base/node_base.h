@@ -9,12 +9,16 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "nodes/base/closable_queue.h"
+#include "nodes/shards/shard_merges.h"
+#include "nodes/shards/shard_requests.h"
 #include "ros/services/diagnostics.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/core/math/time.h"
@@ -50,21 +54,75 @@ class NodeBase {
   /// Adds a service, whose response has `success` and `message`; refused requests are counted. It
   /// is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
-  void serve(const char* name, bool (Node::*callback)(Request&, Response&)) {
-    const boost::function<bool(Request&, Response&)> guarded =
-        [this, name, callback](Request& request, Response& response) {
-          bool answered = false;
-          acceptInput(name,
-                      [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
-          if (answered && !response.success) refused_requests_.add(name, response.message);
-          return answered;
-        };
-    const std::string service = name;
-    closed_.push_back([this, service, guarded] {
-      return private_handle_.advertiseService<Request, Response>(service, guarded);
+  void serve(const std::string& name, bool (Node::*callback)(Request&, Response&)) {
+    const boost::function<bool(Request&, Response&)> guarded = guardService(name, callback);
+    closed_.push_back([this, name, guarded] {
+      return private_handle_.advertiseService<Request, Response>(name, guarded);
     });
     if (open_) openServices();
   }
+  /// Returns the indices of the shards that answer a request, which it may complete before it is
+  /// sent to them. It runs in a thread of ShardRequests.
+  template <class Request>
+  using ShardRoute =
+      typename std::common_type<std::function<std::vector<std::uint32_t>(Request&)>>::type;
+  /// Makes one response of those of several shards.
+  template <class Response>
+  using ShardMerge =
+      typename std::common_type<Response (*)(const std::vector<ShardReply<Response>>&)>::type;
+  /// Adds a service that concerns the node's shard. In a node of several shards it passes requests
+  /// on to those that `route` gives, and ~owned/NAME is the service of this shard alone. In any
+  /// other node it is serve(). To be called after joinShards().
+  template <class Node, class Request, class Response>
+  void serveShared(const std::string& name, bool (Node::*callback)(Request&, Response&),
+                   ShardRoute<Request> route, Repeat repeat,
+                   ShardMerge<Response> merge = takeFirst<Response>) {
+    serve(shards_ ? "owned/" + name : name, callback);
+    if (!shards_) return;
+    const boost::function<bool(Request&, Response&)> handle =
+        [this, name, route, repeat, merge, local = guardService(name, callback)](
+            Request& request, Response& response) {
+          std::optional<Response> merged;
+          answer(response, [&] {
+            const std::vector<std::uint32_t> asked = route(request);
+            merged = merge(askShards<Request, Response>(name, asked, request, repeat, local));
+            return std::string();
+          });
+          if (merged) response = *merged;
+          return true;
+        };
+    closed_.push_back([this, name, handle] {
+      return shards_->workers().advertiseService<Request, Response>(name, handle);
+    });
+    if (open_) openServices();
+  }
+  /// Sends a request to shards, this one among them. For the threads of ShardRequests.
+  template <class Request, class Response, class Local>
+  std::vector<ShardReply<Response>> askShards(const std::string& name,
+                                              const std::vector<std::uint32_t>& shards,
+                                              const Request& request, Repeat repeat, Local local) {
+    return shards_->ask<Request, Response>(
+        name, shards, request, repeat,
+        [&](Request& own, Response& response) { local(own, response); });
+  }
+  /// Guards a callback against what it throws, and counts refused requests.
+  template <class Node, class Request, class Response>
+  auto guardService(const std::string& name, bool (Node::*callback)(Request&, Response&)) {
+    return [this, name, callback](Request& request, Response& response) {
+      bool answered = false;
+      acceptInput(name,
+                  [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
+      if (answered && !response.success) refused_requests_.add(name, response.message);
+      return answered;
+    };
+  }
+  /// Makes the node one of several that share a landscape. @param topic on which they announce
+  /// themselves. @param time_limit for the answers of other nodes, wall time [s].
+  void joinShards(const std::string& topic, const Shard& shard, double time_limit);
+  /// Returns what passes requests on; null in a node without other shards.
+  ShardRequests* shards() { return shards_.get(); }
+  /// Warns of shards without a node, and adds how many requests were passed on.
+  void addShards(Status& status);
   /// Advertises the services. A node calls it once time has begun for it, so that a client that
   /// waits for a service waits for that too.
   void openServices();
@@ -118,6 +176,8 @@ class NodeBase {
   void beat();
 
   std::vector<ros::Subscriber> subscribers_, owned_;
+  std::unique_ptr<ShardRequests> shards_;
+  ros::Publisher shard_publisher_;
   std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin
   bool open_{false};
   std::vector<ros::ServiceServer> services_;

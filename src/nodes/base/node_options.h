@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "core/config/shard.h"
 #include "nodes/snapshots/snapshot_store.h"
 #include "ros/params/parameters.h"
 
@@ -23,12 +25,16 @@ struct NodeOptions {
   double viewer_field_of_view{0.8};  ///< [rad]
   int viewer_height{900};            ///< [pixel]
   SnapshotOptions snapshots;
+  std::optional<Shard> shard;  ///< share of the landscape that the node animates; none: all
+  double shard_wait{5.0};      ///< for the answer of another shard, wall time [s]
 };
 
 /// Reads the parameters that have the same name and range in every node.
 void readCommon(Parameters& parameters, NodeOptions& options);
 /// Reads the viewer that follows a tf frame, of a node whose viewers see pixels.
 void readFollowedViewer(Parameters& parameters, NodeOptions& options);
+/// Reads the shard of the node, and the time that it waits for others, of a map.
+void readShard(const ros::NodeHandle& private_handle, Parameters& parameters, NodeOptions& options);
 
 /// Reads a node's scenario and common parameters; parameters override the scenario. Faults of the
 /// scenario are added to those of the parameters. @tparam Options derived from NodeOptions, with a

@@ -67,16 +67,7 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
 void ForestAnimator::connect() {
   subscribeToOwner("wind", 10, &ForestAnimator::onWind);
   if (!options_.replay) subscribe("forest/sensors", 100, &ForestAnimator::onSensor);
-  serve("get_tree", &ForestAnimator::onGetTree);
-  serve("find_trees", &ForestAnimator::onFindTrees);
-  serve("pick", &ForestAnimator::onPick);
-  serve("set_tf", &ForestAnimator::onSetTf);
-  serve("grab", &ForestAnimator::onGrab);
-  serve("move_grab", &ForestAnimator::onMoveGrab);
-  serve("release", &ForestAnimator::onRelease);
-  serve("apply_force", &ForestAnimator::onApplyForce);
-  serve("cut_branch", &ForestAnimator::onCutBranch);
-  serve("cutting", &ForestAnimator::onCutting);
+  connectServices();
   repeat(options_.tf_rate, &ForestAnimator::sendFrames);
   repeat(options_.branches_rate, &ForestAnimator::sendBranches);
 }

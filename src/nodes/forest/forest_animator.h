@@ -6,6 +6,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <vegetation_sim/ApplyForce.h>
 #include <vegetation_sim/CutBranch.h>
+#include <vegetation_sim/FindBranch.h>
 #include <vegetation_sim/FindTrees.h>
 #include <vegetation_sim/ForestAnimatorConfig.h>
 #include <vegetation_sim/GetTree.h>
@@ -20,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "forest/pick.h"
 #include "nodes/base/event_node.h"
@@ -92,11 +94,22 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void addPhysics(Status& status);
   void updateDeepestOverlap();
 
-  // Services.
+  // Services, and which shards answer requests; routes run in threads of ShardRequests.
+  void connectServices();
+  std::vector<std::uint32_t> ownersOf(std::uint32_t tree);
+  std::vector<std::uint32_t> ownersOfGrab(std::uint32_t id) const;
+  std::vector<std::uint32_t> ownersNear(const geometry_msgs::PointStamped& point);
+  std::vector<std::uint32_t> ownersAlong(const Pick::Request& request);
+  std::vector<std::uint32_t> ownersOfNearest(const geometry_msgs::PointStamped& point);
+  template <class ServiceRequest>
+  std::vector<std::uint32_t> ownersOfPlace(const ServiceRequest& request);
   bool onGetTree(GetTree::Request& request, GetTree::Response& response);
   bool onFindTrees(FindTrees::Request& request, FindTrees::Response& response);
   FoundTree foundTree(std::uint32_t id);
   bool onPick(Pick::Request& request, Pick::Response& response);
+  std::optional<forest::Picked> pickAlong(
+      const Pick::Request& request, const std::function<bool(std::uint32_t tree)>& is_searched);
+  bool onFindBranch(FindBranch::Request& request, FindBranch::Response& response);
   bool onSetTf(SetTf::Request& request, SetTf::Response& response);
   bool onGrab(Grab::Request& request, Grab::Response& response);
   bool onMoveGrab(MoveGrab::Request& request, MoveGrab::Response& response);

@@ -119,25 +119,41 @@ forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
   return ray;
 }
 
+std::optional<forest::Picked> ForestAnimator::pickAlong(
+    const Pick::Request& request, const std::function<bool(std::uint32_t)>& is_searched) {
+  const Nanoseconds stamp = stampOf(request.header.stamp);
+  return pickTree(forest_->layout(), forest_->terrain(), rayOf(request),
+                  [&](std::uint32_t id) -> forest::PosedTree {
+                    if (!is_searched(id)) return {std::make_shared<forest::Tree>(), {}};
+                    const auto grown = cache_.get(*forest_, id);
+                    return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
+                            forest_->poseInView(grown->tree, id, stamp)};
+                  });
+}
+
 bool ForestAnimator::onPick(Pick::Request& request, Pick::Response& response) {
   return answer(response, [&]() -> std::string {
-    const forest::Ray ray = rayOf(request);
-    const Nanoseconds stamp = stampOf(request.header.stamp);
-    const auto hit = pickTree(forest_->layout(), forest_->terrain(), ray,
-                              [&](std::uint32_t id) -> forest::PosedTree {
-                                const auto grown = cache_.get(*forest_, id);
-                                return {std::shared_ptr<const forest::Tree>(grown, &grown->tree),
-                                        forest_->poseInView(grown->tree, id, stamp)};
-                              });
+    const auto hit =
+        pickAlong(request, [this](std::uint32_t id) { return forest_->owners().owns(id); });
     if (!hit) throw InvalidInput("the ray meets no branch", FaultCode::NOTHING_FOUND);
-    forest_->owners().requireOwned("pick", hit->tree);
     response.tree = hit->tree;
     response.branch = static_cast<std::uint32_t>(hit->branch);
     response.along = hit->along;
-    response.point.x = hit->point.x();
-    response.point.y = hit->point.y();
-    response.point.z = hit->point.z();
+    response.point = toPoint(hit->point);
+    response.distance = hit->distance;
     return "tree_" + std::to_string(hit->tree) + "/branch_" + std::to_string(hit->branch);
+  });
+}
+
+bool ForestAnimator::onFindBranch(FindBranch::Request& request, FindBranch::Response& response) {
+  return answer(response, [&] {
+    const forest::Nearest found = grab_manager_.findNearest(request.point);
+    response.tree = found.at.tree;
+    response.branch = static_cast<std::uint32_t>(found.at.branch);
+    response.along = found.at.along;
+    response.nearest = toPoint(found.point);
+    response.distance = found.distance;
+    return "tree_" + std::to_string(response.tree) + "/branch_" + std::to_string(response.branch);
   });
 }
 

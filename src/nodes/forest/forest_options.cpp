@@ -15,25 +15,6 @@ forest::Species defaultSpecies() {
   return out;
 }
 
-// A map with the number of the shard and how many there are.
-void readShard(const ros::NodeHandle& private_handle, Parameters& parameters,
-               ForestOptions& options) {
-  YAML::Node map;
-  if (!parameters.map("shard", map)) return;
-  YamlSection section(map, private_handle.resolveName("shard"), parameters.faults());
-  int index = 0, count = 1;
-  section.integer("index", index, "", {0, forest::MOST_SHARDS - 1.0});
-  section.integer("count", count, "", {1, static_cast<double>(forest::MOST_SHARDS)});
-  section.finish();
-  if (!parameters.faults().empty()) return;
-  options.shard =
-      forest::Shard{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count)};
-  check(*options.shard, parameters.faults());
-  if (count > 1 && options.replay)
-    parameters.fault("replay", "= true is not allowed with shard/count = " + std::to_string(count) +
-                                   ", only with 1");
-}
-
 void checkTrees(const ForestOptions& options, Parameters& parameters) {
   const std::uint32_t count = options.scene.layout.treeCount();
   for (const int tree : options.branches_trees)

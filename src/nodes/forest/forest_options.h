@@ -4,7 +4,6 @@
 
 #include <ros/node_handle.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +47,7 @@ struct ForestOptions : NodeOptions {
   bool tf_promoted{true};           ///< frames of physical branches, where tf_budget has room
   RobotParts robot;                 ///< bodies that push branches aside
   std::vector<FollowedCutter> cutters;
-  std::optional<forest::Shard> shard;  ///< which trees the node animates; none: all
-  ForestTuning tuning;                 ///< initial values for dynamic_reconfigure
+  ForestTuning tuning;  ///< initial values for dynamic_reconfigure
   ForestScene scene;
 };
 void describe(FieldVisitor& visitor, ForestOptions& options);

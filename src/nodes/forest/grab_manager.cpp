@@ -3,8 +3,8 @@
 #include "nodes/forest/grab_manager.h"
 
 #include <cmath>
+#include <set>
 
-#include "forest/nearest.h"
 #include "ros/conversions/grab_conversions.h"
 #include "ros/conversions/optional_numbers.h"
 #include "ros/services/requests.h"
@@ -110,22 +110,41 @@ Vec3 GrabManager::pointOf(const forest::Grab& grab) const {
       .point;
 }
 
-GrabManager::Place GrabManager::nearestTo(const geometry_msgs::PointStamped& stamped) const {
-  const Vec3 point = inWorld(stamped, "point");
-  const auto found = forest::nearestBranch(
-      node_.forest.layout(), node_.forest.terrain(), point, NEAREST_REACH,
+std::optional<forest::Nearest> GrabManager::searchNear(
+    const geometry_msgs::PointStamped& stamped,
+    const std::function<bool(std::uint32_t)>& is_searched) const {
+  return forest::nearestBranch(
+      node_.forest.layout(), node_.forest.terrain(), inWorld(stamped, "point"), NEAREST_REACH,
       [&](std::uint32_t id) -> forest::PosedTree {
+        if (!is_searched(id)) return {};
         const auto tree = grown(id);
         return {tree, node_.forest.pose(*tree, id, node_.forest.snapshot().stamp)};
       });
+}
+
+forest::Nearest GrabManager::findNearest(const geometry_msgs::PointStamped& point) const {
+  const auto found =
+      searchNear(point, [this](std::uint32_t id) { return node_.forest.owners().owns(id); });
   if (!found) throw InvalidInput("no branch within 2 m of point", FaultCode::NOTHING_FOUND);
-  node_.forest.owners().requireOwned("nearest", found->at.tree);
-  return {found->at, found->point, Vec3::UnitZ()};
+  return *found;
+}
+
+std::vector<std::uint32_t> GrabManager::listOwnersNear(
+    const geometry_msgs::PointStamped& point) const {
+  std::set<std::uint32_t> owners;
+  searchNear(point, [&](std::uint32_t id) {
+    owners.insert(node_.forest.owners().ownerOf(id));
+    return false;
+  });
+  return {owners.begin(), owners.end()};
 }
 
 template <class ServiceRequest>
 GrabManager::Place GrabManager::choose(const ServiceRequest& request) const {
-  if (request.nearest) return nearestTo(request.point);
+  if (request.nearest) {
+    const forest::Nearest found = findNearest(request.point);
+    return {found.at, found.point, Vec3::UnitZ()};
+  }
   const Place out = placeOf(request.tree, request.branch, request.along);
   node_.forest.owners().requireOwned("request", request.tree);
   return out;
@@ -220,12 +239,13 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
 GrabManager::Request& GrabManager::find(std::uint32_t id) {
   const auto found = requests_.find(id);
   if (found != requests_.end()) return found->second;
-  const forest::Shard& shard = node_.forest.shard();
-  if (id > 0 && (id - 1) % shard.count != shard.index)
-    throw InvalidInput(
-        "id = " + std::to_string(id) + " is of shard " + std::to_string((id - 1) % shard.count) +
-            " of " + std::to_string(shard.count) + ", this is shard " + std::to_string(shard.index),
-        FaultCode::UNKNOWN);
+  const Shard& shard = node_.forest.shard();
+  if (id > 0 && shardOfId(id, shard.count) != shard.index)
+    throw InvalidInput("id = " + std::to_string(id) + " is of shard " +
+                           std::to_string(shardOfId(id, shard.count)) + " of " +
+                           std::to_string(shard.count) + ", this is shard " +
+                           std::to_string(shard.index),
+                       FaultCode::UNKNOWN);
   std::string known;
   for (const auto& entry : requests_)
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
@@ -327,8 +347,8 @@ std::string GrabManager::cut(const CutBranch::Request& request, CutBranch::Respo
   ForestInput event = eventAt(ForestInput::CUT, request.stamp);
   event.cut = {request.tree, static_cast<int>(request.branch)};
   if (request.nearest) {
-    const Place place = nearestTo(request.point);
-    event.cut = {place.at.tree, place.at.branch};
+    const forest::BranchPoint found = findNearest(request.point).at;
+    event.cut = {found.tree, found.branch};
   }
   forest::checkCut(node_.forest.layout(), *grown(event.cut.tree), event.cut);
   node_.forest.owners().requireOwned("cut", event.cut.tree);

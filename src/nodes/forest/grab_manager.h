@@ -15,10 +15,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/archive/archive.h"
+#include "forest/nearest.h"
 #include "forest/tree_cache.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
@@ -54,6 +56,12 @@ class GrabManager {
   std::string release(const Release::Request& request);
   std::string push(const ApplyForce::Request& request, ApplyForce::Response& response);
   std::string cut(const CutBranch::Request& request, CutBranch::Response& response);
+
+  /// Returns the branch of this shard that is nearest to a point. @throws InvalidInput
+  forest::Nearest findNearest(const geometry_msgs::PointStamped& point) const;
+  /// Lists in rising order the shards that own trees which may have a branch near a point.
+  /// @throws InvalidInput
+  std::vector<std::uint32_t> listOwnersNear(const geometry_msgs::PointStamped& point) const;
 
   /// Before the tick `stamp`: moves every grab whose frame has a new transform since the last call.
   /// Calls `report` with the name and the fault of each frame that cannot be followed.
@@ -113,7 +121,9 @@ class GrabManager {
   std::shared_ptr<const forest::Tree> grown(std::uint32_t tree) const;
   Place placeOf(std::uint32_t tree, std::uint32_t branch, double along) const;
   Vec3 pointOf(const forest::Grab& grab) const;
-  Place nearestTo(const geometry_msgs::PointStamped& point) const;
+  std::optional<forest::Nearest> searchNear(
+      const geometry_msgs::PointStamped& point,
+      const std::function<bool(std::uint32_t tree)>& is_searched) const;
   template <class ServiceRequest>
   Place choose(const ServiceRequest& request) const;
   Vec3 inWorld(const geometry_msgs::PointStamped& point, const char* name) const;

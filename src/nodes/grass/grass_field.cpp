@@ -5,6 +5,7 @@
 #include "nodes/base/node_factory.h"
 
 #include "core/config/field_values.h"
+#include "grass/map/tile_owners.h"
 #include "nodes/grass/grass_events.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -20,12 +21,21 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       cutters_(options_.frame_id, options_.cutters, tf_buffer_, options_.frame_wait) {
   const GrassScene& scene = options_.scene;
   grass::Layout layout = scene.grass.layout;
-  tread_ = std::make_unique<grass::TreadMap>(layout.map->law(), scene.grass.treading);
+  const grass::MapLaw& law = layout.map->law();
+  tread_ = std::make_unique<grass::TreadMap>(
+      law, scene.grass.treading,
+      std::make_shared<const grass::TileOwners>(law, options_.shard.value_or(Shard())));
   layout.tread_spacing = tread_->spacing();
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
-  markers_ = std::make_unique<GrassMarkers>(*field_, scene.terrain, wind_, colours_, tuning_.view,
+  if (options_.shard && options_.shard->count > 1 && showsAll()) {
+    whole_ = std::make_unique<grass::TreadMap>(law, scene.grass.treading);
+    whole_field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain,
+                                                            scene.grass.treading, *whole_);
+    whole_field_->setDrag(tuning_.drag);
+  }
+  markers_ = std::make_unique<GrassMarkers>(shown(), scene.terrain, wind_, colours_, tuning_.view,
                                             options_.marker_points);
   layout_publisher_ = handle_.advertise<GrassLayout>("grass/layout", 1, true);
   // A late subscriber gets a key frame at the next tick.
@@ -33,14 +43,14 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
   forces_publisher_ = handle_.advertise<GrassForces>("grass/forces", 1000);
-  colours_publisher_ = handle_.advertise<GrassColours>("grass/colours", 1, true);
-  values_publisher_ = handle_.advertise<GrassCover>("grass/cover/values", 1);
-  cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("grass/cover", 1);
+  colours_publisher_ = handle_.advertise<GrassColours>(shownTopic("grass/colours"), 1, true);
+  values_publisher_ = handle_.advertise<GrassCover>(shownTopic("grass/cover/values"), 1);
+  cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>(shownTopic("grass/cover"), 1);
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
-        std::string("grass/cover/") + COVER_LAYERS[i], 1);
+        shownTopic(std::string("grass/cover/") + COVER_LAYERS[i]), 1);
   publishLayout();
-  start("grass", "grass/markers", *markers_);
+  start("grass", shownTopic("grass/markers").c_str(), *markers_);
   cutters_.clear();  // after a checkpoint: how the tools have moved since then is unknown
 }
 
@@ -48,12 +58,8 @@ void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-  serve("tread", &GrassField::onTreadPath);
-  serve("sample", &GrassField::onSample);
-  serve("clear", &GrassField::onClear);
-  serve("cut", &GrassField::onCut);
-  serve("set_colours", &GrassField::onSetColours);
-  serve("cutting", &GrassField::onCutting);
+  if (whole_) subscribe("grass/state", 1000, &GrassField::onState);
+  connectServices();
   repeat(options_.cover_rate, &GrassField::sendCover);
 }
 
@@ -66,6 +72,7 @@ void GrassField::tick(std::int64_t tick) {
   }
   applyInputs(stamp);
   publishEntering(stamp);
+  if (whole_field_) whole_field_->advance(stamp);
   publishState(tick);
   publishForces(stamp);
 }
@@ -101,10 +108,12 @@ void GrassField::applyTuning(GrassTuning tuning) {
   check(tuning);
   tuning.view.most_blades = options_.tuning.view.most_blades;
   field_->setDrag(tuning.drag);
+  if (whole_field_) whole_field_->setDrag(tuning.drag);
   markers_->setSettings(tuning.view);
   tuning_ = tuning;
   const std::uint64_t before = field_->layout().hash();
   field_->setTreadLaw(tuning.tread);
+  if (whole_field_) whole_field_->setTreadLaw(tuning.tread);
   if (field_->layout().hash() == before) return;
   key_frames_.demand();
   publishLayout();
@@ -113,6 +122,8 @@ void GrassField::applyTuning(GrassTuning tuning) {
 // Layout, wind and settings stay in force.
 void GrassField::resetGround() {
   field_->reset();
+  if (whole_field_) whole_field_->reset();
+  whole_replica_.reset();
   sources_.clear();
   cutters_.clear();
   key_frames_.demand();
@@ -136,6 +147,11 @@ void GrassField::restart() {
   coloured_ = false;
   resetGround();
   publishLayout();
+}
+
+// One node shows the meadow for all; the others show their share on topics of their own.
+std::string GrassField::shownTopic(const std::string& topic) const {
+  return showsAll() ? topic : private_handle_.resolveName(topic);
 }
 
 void GrassField::publishLayout() {

@@ -9,6 +9,7 @@
 #include <vegetation_sim/CutGrass.h>
 #include <vegetation_sim/GrassEvent.h>
 #include <vegetation_sim/GrassForces.h>
+#include <vegetation_sim/GrassState.h>
 #include <vegetation_sim/SampleGrass.h>
 #include <vegetation_sim/SetGrassColours.h>
 #include <vegetation_sim/Tread.h>
@@ -16,6 +17,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "nodes/base/event_node.h"
@@ -42,6 +44,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void connect() override;
   void onWind(const WindField& message);
   void onTread(const TreadEvent& message);
+  void onState(const GrassState& message);
   void showTuning(GrassFieldConfig& config) const override { toConfig(tuning_, config); }
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
   /// ENTER is an output of the recorded node.
@@ -79,7 +82,11 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void addGovernor(Status& status) override;
   std::vector<PredictedError> predictErrors() const override;
 
-  // Services.
+  // Services, and which shards answer requests; routes run in threads of ShardRequests.
+  void connectServices();
+  template <class ServiceRequest>
+  std::vector<std::uint32_t> askAllAtOneTick(ServiceRequest& request);
+  std::vector<std::uint32_t> ownersOfPoints(const SampleGrass::Request& request);
   bool onTreadPath(Tread::Request& request, Tread::Response& response);
   bool onSample(SampleGrass::Request& request, SampleGrass::Response& response);
   bool onCut(CutGrass::Request& request, CutGrass::Response& response);
@@ -89,10 +96,19 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
   GrassSample sampleAt(const Vec3& place, Nanoseconds stamp) const;
+  /// Whether the node shows the meadow of all shards, which shard 0 does for all.
+  bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
+  std::string shownTopic(const std::string& topic) const;
+  /// The ground of this node, or that of all shards.
+  const grass::TreadSimulation& shown() const { return whole_field_ ? *whole_field_ : *field_; }
 
   GrassTuning tuning_;
   std::unique_ptr<grass::TreadMap> tread_;
   std::unique_ptr<grass::TreadSimulation> field_;
+  // The ground of all shards, of the node that shows them.
+  std::unique_ptr<grass::TreadMap> whole_;
+  std::unique_ptr<grass::TreadSimulation> whole_field_;
+  grass::TreadReplica whole_replica_;
   wind::Field wind_;
   grass::ColourMasks colours_;
   bool coloured_{false};  // the discs of the scenario have been published

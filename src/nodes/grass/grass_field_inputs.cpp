@@ -48,6 +48,12 @@ void GrassField::onTread(const TreadEvent& message) {
   });
 }
 
+// The state of a shard, of this one too, in the ground that the node shows.
+void GrassField::onState(const GrassState& message) {
+  const grass::TreadUpdate update = fromMsg(message);
+  if (update.layout_hash == field_->layout().hash()) whole_replica_.apply(update, *whole_);
+}
+
 void GrassField::followSources(Nanoseconds stamp) {
   const auto report = [this](const std::string& what, const std::string& why) {
     refusals_.add(what, why);

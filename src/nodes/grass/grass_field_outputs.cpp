@@ -75,7 +75,7 @@ void GrassField::sendCover(const ros::TimerEvent&) {
   for (const ros::Publisher& layer : layer_publishers_) subscribers += layer.getNumSubscribers();
   if (!clock_.hasBegun() || subscribers == 0) return;
   if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, options_.cover_resolution);
-  GrassCover cover = coverOf(*field_, ground_, options_.cover_resolution);
+  GrassCover cover = coverOf(shown(), ground_, options_.cover_resolution);
   cover.header.frame_id = options_.frame_id;
   if (values_publisher_.getNumSubscribers() > 0) values_publisher_.publish(cover);
   const auto send = [&](const ros::Publisher& publisher, CoverLayer layer) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "grass/lod/node_wind.h"
+#include "grass/map/tile_owners.h"
 #include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
 #include "nodes/grass/waiting_areas.h"
@@ -139,6 +140,7 @@ GrassSample GrassField::sampleAt(const Vec3& place, Nanoseconds stamp) const {
   out.age = -1.0;
   const double u = (x - law.origin_x) / law.resolution, v = (y - law.origin_y) / law.resolution;
   out.inside = u >= 0.0 && v >= 0.0 && u <= law.columns - 1.0 && v <= law.rows - 1.0;
+  out.inside = out.inside && field_->tread().owners().ownsPlace(x, y);
   if (!out.inside) return out;
   const grass::Features f = map.at(x, y);
   const grass::CutNode cut = field_->tread().cuts().at({x, y});

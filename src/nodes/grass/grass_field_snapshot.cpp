@@ -29,6 +29,9 @@ std::uint64_t GrassField::sceneHash() const {
   FieldHasher fields(hash);
   grass::TreadSettings treading = options_.scene.grass.treading;
   describe(fields, treading);
+  if (options_.shard)
+    for (const std::uint32_t part : {options_.shard->index, options_.shard->count})
+      hash.add(std::uint64_t{part});
   return hash.value();
 }
 

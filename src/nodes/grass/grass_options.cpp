@@ -156,6 +156,7 @@ GrassOptions loadGrassOptions(const ros::NodeHandle& private_handle) {
   out.cutters = out.scene.cutters;
   readFollowedViewer(parameters, out);
   describe(parameters, out);
+  readShard(private_handle, parameters, out);
   YAML::Node list;
   if (parameters.list("sources", list)) {
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());

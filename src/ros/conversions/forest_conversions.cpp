@@ -313,7 +313,7 @@ forest::StateUpdate fromMsg(const ForestState& message) {
   out.trees_hash = message.trees_hash;
   out.shard = message.shard;
   out.shards = std::max<std::uint32_t>(1, message.shards);
-  check(forest::Shard{out.shard, out.shards}, faults);
+  check(Shard{out.shard, out.shards}, faults);
   const auto modal = std::count_if(message.trees.begin(), message.trees.end(),
                                    [](const TreeState& tree) { return !tree.amplitude.empty(); });
   if (modal > MOST_MODAL_TREES)

@@ -161,6 +161,8 @@ GrassState toMsg(const grass::TreadUpdate& update) {
   out.key_frame = update.key_frame;
   out.layout_hash = update.layout_hash;
   out.hash = update.hash;
+  out.shard = update.shard;
+  out.shards = update.shards;
   for (const grass::Press& press : update.treads.presses) {
     out.press_stamps.push_back(toStamp(press.stamp));
     out.press_recoveries.push_back(press.recovery);
@@ -201,6 +203,9 @@ grass::TreadUpdate fromMsg(const GrassState& message) {
   out.key_frame = message.key_frame;
   out.layout_hash = message.layout_hash;
   out.hash = message.hash;
+  out.shard = message.shard;
+  out.shards = std::max<std::uint32_t>(1, message.shards);
+  check(Shard{out.shard, out.shards}, faults);
   if (message.press_stamps.size() != message.press_recoveries.size())
     faults.add("state: " + std::to_string(message.press_stamps.size()) + " press_stamps for " +
                std::to_string(message.press_recoveries.size()) + " press_recoveries");

@@ -48,27 +48,18 @@ void SubscribedForest::apply(const ForestState& message) {
     return {false, "Waiting for a key frame: " + replica_.why()};
   });
   if (replica_.shards() > 1 && message.shard < replica_.shards())
-    shard_statuses_[message.shard] = state_status_;
+    shard_statuses_.set(message.shard, state_status_);
 }
 
 InputStatus SubscribedForest::shardStatus(std::uint32_t shard, Nanoseconds now) const {
   if (replica_.shards() == 1) return unlessSilent(state_status_, replica_.stamp(), now);
-  const auto found = shard_statuses_.find(shard);
-  if (found == shard_statuses_.end()) return {false, "No state: its trees are at rest"};
-  return unlessSilent(found->second, replica_.stampOf(shard), now);
+  return shard_statuses_.of(shard, replica_.stampOf(shard), now);
 }
 
 InputStatus SubscribedForest::stateStatus(Nanoseconds now) const {
-  const std::uint32_t shards = replica_.shards();
-  if (shards == 1) return shardStatus(0, now);
-  InputStatus out{true, "In step: " + std::to_string(shards) + " shards"};
-  for (std::uint32_t shard = 0; shard < shards; ++shard) {
-    const InputStatus one = shardStatus(shard, now);
-    if (one.good) continue;
-    const std::string text = "Shard " + std::to_string(shard) + ": " + one.text;
-    out = {false, out.good ? text : out.text + "; " + text};
-  }
-  return out;
+  if (replica_.shards() == 1) return shardStatus(0, now);
+  return ShardStatuses::all(replica_.shards(),
+                            [&](std::uint32_t shard) { return shardStatus(shard, now); });
 }
 
 void SubscribedForest::forgetLater(Nanoseconds now) {

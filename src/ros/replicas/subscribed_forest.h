@@ -5,8 +5,7 @@
 #include <vegetation_sim/ForestLayout.h>
 #include <vegetation_sim/ForestState.h>
 
-#include <map>
-
+#include "ros/replicas/shard_statuses.h"
 #include "ros/replicas/subscribed_wind.h"
 #include "vegetation_sim/forest/forest_replica.h"
 
@@ -56,7 +55,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   SubscribedWind wind_;
   int layouts_{0};
   InputStatus layout_status_, state_status_;
-  std::map<std::uint32_t, InputStatus> shard_statuses_;  // of the shards that have been heard
+  ShardStatuses shard_statuses_;
 };
 
 }  // namespace vegetation_sim

@@ -31,6 +31,8 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
   receive("grass/layout", layout_status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);
     grass::Layout layout = fromMsg(message);
+    // The layout of another shard, which is the same.
+    if (ready() && replica_.shards() > 1 && layout.hash() == layout_hash_) return layout_status_;
     auto terrain = loadPublishedTerrain(layout.terrain);
     if (terrain->hash() != layout.terrain_hash)
       throw InvalidInput("layout: terrain = '" + layout.terrain +
@@ -43,6 +45,7 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     layout_hash_ = layout_.hash();
     terrain_ = std::move(terrain);
     replica_.reset();
+    shard_statuses_.clear();
     pressed_.clear();
     frame_ = message.header.frame_id;
     ++layouts_;
@@ -82,6 +85,15 @@ void SubscribedMeadow::apply(const GrassState& message) {
     if (!update.key_frame) notePressed(update.treads);
     return {true, "In step"};
   });
+  if (replica_.shards() > 1 && message.shard < replica_.shards())
+    shard_statuses_.set(message.shard, state_status_);
+}
+
+InputStatus SubscribedMeadow::stateStatus(Nanoseconds now) const {
+  if (replica_.shards() == 1) return unlessSilent(state_status_, replica_.stampOf(0), now);
+  return ShardStatuses::all(replica_.shards(), [&](std::uint32_t shard) {
+    return shard_statuses_.of(shard, replica_.stampOf(shard), now);
+  });
 }
 
 void SubscribedMeadow::notePressed(const grass::TreadDelta& treads) {
@@ -109,9 +121,13 @@ void SubscribedMeadow::prune(Nanoseconds stamp) {
 
 void SubscribedMeadow::forgetLater(Nanoseconds now) {
   forgetDelayed(now);
-  if (!ready() || replica_.stamp() <= now) return;
+  bool is_later = false;
+  for (std::uint32_t shard = 0; shard < replica_.shards(); ++shard)
+    is_later = is_later || replica_.stampOf(shard) > now;
+  if (!ready() || !is_later) return;
   tread_->clear();
   replica_.reset();
+  shard_statuses_.clear();
   ++changes_;
   state_status_ = {false, "Waiting for a key frame: time went back"};
 }

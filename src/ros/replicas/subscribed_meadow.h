@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "ros/replicas/shard_statuses.h"
 #include "ros/replicas/subscribed_wind.h"
 #include "vegetation_sim/grass/grass_layout.h"
 #include "vegetation_sim/grass/lod/colour_mask.h"
@@ -18,7 +19,8 @@
 
 namespace vegetation_sim {
 
-/// The meadow of another node, rebuilt from its layout, its state and the wind.
+/// The meadow of another node, rebuilt from its layout, its state and the wind. Of a meadow in
+/// shards the messages of all of them are merged.
 class SubscribedMeadow : public SubscribedReplica<GrassState> {
  public:
   struct Topics {
@@ -58,11 +60,13 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   std::set<std::pair<int, int>> takePressed() { return std::exchange(pressed_, {}); }
 
   const InputStatus& layoutStatus() const { return layout_status_; }
-  std::string rivals() const override { return SubscribedReplica::rivals() + wind_.rivals(); }
-  const InputStatus& windStatus() const { return wind_.status(); }
-  InputStatus stateStatus(Nanoseconds now) const {
-    return unlessSilent(state_status_, replica_.stamp(), now);
+  /// Each shard publishes layout and state.
+  std::string rivals() const override {
+    return describeRivals(subscribers_, replica_.shards()) + wind_.rivals();
   }
+  const InputStatus& windStatus() const { return wind_.status(); }
+  /// Returns the status of the states, of all shards. It names those that are not in use.
+  InputStatus stateStatus(Nanoseconds now) const;
   /// Why states are ignored until the next key frame; empty if they are not.
   const std::string& why() const { return replica_.why(); }
 
@@ -79,6 +83,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;
   InputStatus layout_status_, state_status_;
+  ShardStatuses shard_statuses_;
 };
 
 }  // namespace vegetation_sim

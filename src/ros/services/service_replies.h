@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <vegetation_sim/ErrorCode.h>
 
@@ -17,7 +18,9 @@ void setErrorCode(Response& response, FaultCode code) {
   static_assert(static_cast<std::uint8_t>(FaultCode::INTERNAL) == ErrorCode::INTERNAL);
   response.error_code = static_cast<std::uint8_t>(code);
 }
-inline void setErrorCode(std_srvs::Trigger::Response&, FaultCode) {}  // it has no such field
+// Those of std_srvs have no such field.
+inline void setErrorCode(std_srvs::Trigger::Response&, FaultCode) {}
+inline void setErrorCode(std_srvs::SetBool::Response&, FaultCode) {}
 
 /// Returns the code of an exception; std::out_of_range is a number that is unknown.
 inline FaultCode codeOf(const std::exception& error) {

@@ -6,24 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/config/shard.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
 namespace vegetation_sim::forest {
-
-/// Maximum number of processes that share a forest.
-constexpr std::uint32_t MOST_SHARDS = 4096;
-
-/// The share of a forest that one process animates. Of a count of 1 it is the whole forest.
-struct Shard {
-  std::uint32_t index{0};  ///< below `count`
-  std::uint32_t count{1};  ///< 1 to MOST_SHARDS
-};
-
-/// Adds a fault for each number out of range.
-void check(const Shard& shard, Faults& faults);
-/// Returns the smallest id from `least` (above 0) on that the shard may give, so that all shards
-/// give different ones: index + 1 and each `count` after it.
-std::uint32_t nextIdOf(const Shard& shard, std::uint32_t least);
 
 /// Which shard owns which tree: a pure function of the layout and the number of shards, so that all
 /// processes agree. Trees outside tiles and whole tiles lie in a row along a Morton curve through

@@ -36,7 +36,7 @@ TEST_F(TreadUpdateTest, KeyFrameAndDeltasRebuildTheGroundToTheBit) {
     ASSERT_EQ(groundHash(other_), groundHash(map_)) << i;
   }
   EXPECT_GT(snapshotTreads(map_.state(), now()).blocks.size(), 5u);
-  EXPECT_EQ(replica_.stamp(), now());
+  EXPECT_EQ(replica_.stampOf(0), now());
 }
 
 TEST_F(TreadUpdateTest, ADeltaHoldsOnlyWhatWasPressedSince) {

@@ -137,6 +137,16 @@ TEST_F(NodeEnd, MayComeWithinACallback) {
   liveAndEnd<AgentCrowd>("agent_crowd", "scenarios/crowd.yaml");
 }
 
+// A reset waits for the node's thread in another one, and for a shard that no node animates.
+TEST_F(NodeEnd, MayComeWhileARequestIsPassedOn) {
+  for (const char* name : {"/forest_shard", "/grass_shard"}) {
+    ros::param::set(std::string(name) + "/shard/index", 0);
+    ros::param::set(std::string(name) + "/shard/count", 2);
+  }
+  liveAndEnd<ForestAnimator>("forest_shard", "scenarios/one_branch.yaml");
+  liveAndEnd<GrassField>("grass_shard", "scenarios/lawn.yaml");
+}
+
 /// A node that only has diagnostics.
 class IdleNode final : public NodeBase {
  public:

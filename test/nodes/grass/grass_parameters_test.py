@@ -24,7 +24,7 @@ WHOLE_NUMBERS = {
     'marker_points': ('', 900, 3000000), 'viewer_height': (' pixel', 1, 100000),
 }
 OTHERS = {'scenario', 'checkpoint', 'snapshot_folder',
-          'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources', 'cutters'}
+          'frame_id', 'viewer_frame', 'replay', 'cover_layer', 'sources', 'cutters', 'shard'}
 
 # Text of a bad scenario and the expected part of the error.
 SCENARIOS = [
@@ -76,10 +76,11 @@ class GrassParameters(Ranges, RefusingNode):
     NUMBERS, WHOLE_NUMBERS, OTHERS = NUMBERS, WHOLE_NUMBERS, OTHERS
 
     def test_wrong_types_are_refused(self):
-        wrong = dict(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', cover_layer='red')
+        wrong = dict(scenario=4, frame_id=True, viewer_frame=[1], replay='yes', cover_layer='red',
+                     shard=2)
         refusal = self.refusal(wrong)
         for text in ('~scenario = 4 is not text', '~frame_id = 1 is not text', 'viewer_frame = ',
-                     '~replay = yes is not true or false',
+                     '~replay = yes is not true or false', '~shard = 2 is not a map',
                      "~cover_layer = 'red' is none of crush, density, resistance, age"):
             self.assertIn(text, refusal)
 
@@ -89,6 +90,8 @@ class GrassParameters(Ranges, RefusingNode):
         self.assertIn("~viewer_frame = '/camera' begins with '/'", refusal)
         self.assertIn('reach = 0.3', self.refusal({'tread_radius': 0.3, 'tread_reach': 0.3}))
         self.assertIn('cells, allowed are', self.refusal({'cover_resolution': 0.02}))
+        self.assertIn('shard: index = 2 is outside 0 to 1, because count = 2',
+                      self.refusal({'shard': {'index': 2, 'count': 2}}))
 
     def test_each_bad_source_or_cutter_is_refused(self):
         for cutters, text in CUTTERS:

@@ -69,6 +69,7 @@ REQUESTS = {
          'tree', 'branch', 'along', 'point.header', 'force.header')],
     '/forest_animator/cut_branch': [
         (srv.CutBranchRequest(tree=1, branch=5), 'point')],
+    '/forest_animator/find_branch': [(srv.FindBranchRequest(point=STEM), 'point.header')],
     '/forest_animator/find_trees': [
         (srv.FindTreesRequest(centre=PLACE, radius=20.0, limit=5),
          'centre.header', 'offset')],
@@ -239,6 +240,8 @@ class BadRequests(unittest.TestCase):
              srv.TreadRequest(points=[Point(-9.0, 0.0, 0.0), Point(9.0, 0.0, 0.0)] * 4000, law=LAW)),
             (ErrorCode.NOT_AVAILABLE, '/grass_field/sample', srv.SampleGrassRequest(
                 header=Header(stamp=rospy.Time(1)), points=[PLACE.point])),
+            (ErrorCode.NOTHING_FOUND, '/forest_animator/find_branch', srv.FindBranchRequest(
+                point=PointStamped(point=away))),
             (ErrorCode.NOTHING_FOUND, '/forest_animator/pick', srv.PickRequest(
                 origin=away, direction=Vector3(0.0, 0.0, 1.0), tolerance=0.1)),
             (ErrorCode.FILE_REJECTED, '/grass_field/load_snapshot',

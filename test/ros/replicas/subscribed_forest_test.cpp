@@ -77,7 +77,7 @@ TEST(SubscribedForest, NamesTheShardThatIsNotInUse) {
     return out;
   };
   forest.apply(of_shard(0, start));
-  EXPECT_EQ(forest.stateStatus(start).text, "Shard 1: No state: its trees are at rest");
+  EXPECT_EQ(forest.stateStatus(start).text, "Shard 1: No state: its plants are at rest");
   forest.apply(of_shard(1, start));
   EXPECT_EQ(forest.stateStatus(start).text, "In step: 2 shards");
   forest.setLayout(twoByTwo());  // by the other shard

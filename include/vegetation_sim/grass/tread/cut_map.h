@@ -5,6 +5,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -87,6 +88,13 @@ class CutMap {
 
   const CutState& state() const { return state_; }
   void restore(CutState state);
+  /// Clears the blocks for which `selects(row, column)` is true.
+  template <class Select>
+  void clear(const Select& selects) {
+    for (auto entry = state_.blocks.begin(); entry != state_.blocks.end();)
+      entry = selects(entry->first.first, entry->first.second) ? state_.blocks.erase(entry)
+                                                               : std::next(entry);
+  }
   std::size_t bytes() const;
 
  private:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "vegetation_sim/grass/tread/tread_law.h"
 
 namespace vegetation_sim::grass {
+
+class TileOwners;
 
 struct TreadSettings {
   /// wanted spacing of the fine nodes; rounded so that it divides a tile [m]
@@ -135,8 +138,10 @@ struct TreadStroke;
 /// stamp. One thread at a time. The values have the same bits on every processor.
 class TreadMap {
  public:
+  /// @param owners whose shard's blocks are pressed, those of others stay upright; null: all are.
   /// @throws InvalidInput with all faults.
-  TreadMap(const MapLaw& law, const TreadSettings& settings);
+  TreadMap(const MapLaw& law, const TreadSettings& settings,
+           std::shared_ptr<const TileOwners> owners = nullptr);
 
   /// Moves a source, or puts it down, and presses the segment from its last position to `position`
   /// [m]. A position that is not finite, a jump or a stamp before the last one leaves no track and
@@ -166,7 +171,13 @@ class TreadMap {
 
   const TreadState& state() const { return state_; }
   void restore(TreadState state);
+  /// Clears trodden and cut ground in the blocks of one shard.
+  void clearShard(const TileOwners& owners, std::uint32_t shard);
+  const MapLaw& law() const { return law_; }
   double spacing() const { return spacing_; }
+  /// Fine cells along a tile.
+  int cells() const { return cells_; }
+  const TileOwners& owners() const { return *owners_; }
   std::size_t bytes() const;
 
  private:
@@ -188,11 +199,13 @@ class TreadMap {
   int pressWindow(TreadStroke& stroke);
   int pressBands(TreadStroke& stroke);
   int pressBand(TreadStroke& stroke, const TreadBand& band);
+  bool ownsAnyOf(const TreadBand& band) const;
   void prefetch(const TreadBand& band);
   void forgetRecent();
 
   MapLaw law_;
   TreadSettings settings_;
+  std::shared_ptr<const TileOwners> owners_;
   int cells_;  ///< fine cells along a tile
   double spacing_, per_spacing_;
   CutMap cuts_;

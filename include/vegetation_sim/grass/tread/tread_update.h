@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -61,7 +63,9 @@ std::vector<CutBlockDelta> makeCutDelta(const CutState& state, const CutMap::Nod
 /// Returns the nodes of these blocks that belong to the interval.
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
                      const TreadInterval& interval);
-/// Returns a hash of all values, which is equal for equal ground if all of it is included.
+/// Returns a hash of all values, which is equal for equal ground if all of it is included: the sum
+/// modulo 2^64 of the hashes of its blocks, so that those of all shards add up to that of the
+/// whole.
 std::uint64_t hashOf(const TreadDelta& treads);
 /// Adds a fault for each value that is not possible.
 void check(const TreadDelta& treads, Faults& faults);
@@ -74,26 +78,43 @@ struct TreadUpdate {
   std::uint32_t sequence{0};
   bool key_frame{false};
   std::uint64_t layout_hash{0};
-  std::uint64_t hash{0};  ///< in key frames, hashOf(treads); else 0
+  std::uint64_t hash{0};   ///< in key frames, hashOf(treads); else 0
+  std::uint32_t shard{0};  ///< whose blocks these are, of 0 to `shards`
+  std::uint32_t shards{1};
   TreadDelta treads;
 };
 
-/// Keeps another process's trodden ground in a TreadMap of the same layout.
+/// Keeps the trodden ground of another process, or of the shards of a meadow, in a TreadMap of the
+/// same layout.
 class TreadReplica {
  public:
-  /// Applies a checked key frame, or the update that follows the last one. @return false if it was
-  /// ignored because messages were lost; why() has the reason. The next key frame ends that.
+  /// Applies a checked key frame, or the update that follows the last one of its shard. @return
+  /// false if it was ignored because messages were lost; why() has the reason. The next key frame
+  /// of the shard ends that. @throws InvalidInput for another number of shards than that of the
+  /// messages in use, and for a block of another shard.
   bool apply(const TreadUpdate& update, TreadMap& map);
   /// Discards the state, after another layout or a jump back in time.
   void reset() { *this = TreadReplica(); }
 
-  Nanoseconds stamp() const { return stamp_; }
+  std::uint32_t shards() const { return static_cast<std::uint32_t>(parts_.size()); }
+  /// Stamp of the last update of a shard that was applied. @param shard below shards().
+  Nanoseconds stampOf(std::uint32_t shard) const { return parts_[shard].stamp; }
+  /// Reason why the last update was ignored, or applied in part; empty if neither is so.
   const std::string& why() const { return why_; }
 
  private:
-  bool in_sequence_{false};
-  std::uint32_t sequence_{0};
-  Nanoseconds stamp_{0};
+  /// What is known of the messages of a shard.
+  struct Part {
+    bool in_sequence{false};
+    std::uint32_t sequence{0};
+    Nanoseconds stamp{0};
+    std::string why;
+  };
+  Part& choosePart(const TreadUpdate& update, const TreadMap& map);
+  void checkBlocks(const TreadUpdate& update, const TreadMap& map) const;
+
+  std::vector<Part> parts_{Part()};           // by shard
+  std::shared_ptr<const TileOwners> owners_;  // of several shards
   std::string why_;
 };
 

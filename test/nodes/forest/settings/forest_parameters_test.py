@@ -117,7 +117,8 @@ class ForestParameters(Ranges, RefusingNode):
                 ({'index': -1}, 'shard: index = -1 is outside 0 to 4095'),
                 ({'index': 2, 'count': 2},
                  'shard: index = 2 is outside 0 to 1, because count = 2'),
-                ({'number': 2}, 'number is not a known key; known are count, index')):
+                ({'number': 2}, 'number is not a known key; known are count, index, wait'),
+                ({'wait': 0.01}, 'shard: wait = 0.01 s is outside 0.1 to 600 s')):
             self.assertIn(text, self.refusal({'shard': shard}))
         self.assertIn('~replay = true is not allowed with shard/count = 2, only with 1',
                       self.refusal({'shard': {'count': 2}, 'replay': True}))

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs a scene in four shards on four hosts, which are network namespaces with virtual links, beside
+# the same scene in one node each on the host of the master. Walkers tread over borders, branches
+# are held, pushed and cut through the wrong shard. The hashes of the shards have to add up to those
+# of the single nodes at each tick, and the points of a lidar have to be equal. Prints a table.
+# The links have a delay if the kernel has netem.
+# usage: scripts/test_shards.sh [TICKS [DELAY [LOSS]]]  (600 ticks, 1 ms, 0 %)
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+cd "$ROOT"
+use_space "$DEVEL"
+export PATH=/usr/bin:/usr/sbin:/sbin:$PATH PYTHONDONTWRITEBYTECODE=1
+export PYTHONPATH=$ROOT/test/nodes/rigs:$PYTHONPATH
+if [ "${IN_NAMESPACE:-}" != 1 ]; then
+  # In a network of its own, no node of another run answers.
+  IN_NAMESPACE=1 exec unshare --user --map-root-user --net --mount --pid --fork --kill-child \
+    --mount-proc "$0" "$@"
+fi
+
+HOSTS=4
+MASTER=10.77.0.1
+ticks=${1:-600} delay=${2:-1ms} loss=${3:-0%}
+mount -t tmpfs none /run
+mkdir /run/netns
+WORK=$(mktemp -d)
+trap 'rm -rf "$WORK"' EXIT
+unset ROS_HOSTNAME
+export ROS_MASTER_URI=http://$MASTER:11311 ROS_IP=$MASTER ROS_HOME=$WORK/ros
+ip link set lo up
+ip link add hub type bridge
+ip address add $MASTER/24 dev hub
+ip link set hub up
+netem=yes
+for host in $(seq $HOSTS); do
+  ip netns add "host_$host"
+  ip link add "link_$host" type veth peer name eth0 netns "host_$host"
+  ip link set "link_$host" master hub up
+  ip -n "host_$host" link set lo up
+  ip -n "host_$host" address add "10.77.0.1$host/24" dev eth0
+  ip -n "host_$host" link set eth0 up
+  for command in "tc qdisc add dev link_$host" "tc -n host_$host qdisc add dev eth0"; do
+    $command root netem delay "$delay" loss "$loss" 2>/dev/null || netem=no
+  done
+done
+if [ $netem = yes ]; then
+  say "links with a delay of $delay and a loss of $loss each way"
+else
+  say 'the kernel has no netem: the links have no delay'
+fi
+
+# usage: start HOST (0: that of the master) TYPE NAME [ARGUMENT ...]
+start() {
+  local host=$1 type=$2 name=$3 enter=()
+  shift 3
+  [ "$host" = 0 ] || enter=(env ROS_IP="10.77.0.1$host" ip netns exec "host_$host")
+  "${enter[@]}" "$DEVEL/lib/vegetation_sim/$type" "__name:=$name" "$@" \
+    >"$WORK/$type.$name.log" 2>&1 &
+}
+
+roscore -p 11311 >"$WORK/roscore.log" 2>&1 &
+until rosparam set /use_sim_time true 2>/dev/null; do sleep 0.2; done
+scene=$ROOT/test/nodes/shards/hosts.yaml
+# usage: start_pair HOST NAMESPACE SUFFIX INDEX COUNT. Starts a shard of the forest and of the grass.
+start_pair() {
+  local kind name
+  for kind in forest grass; do
+    name=${kind}_$3
+    rosparam load "$ROOT/test/nodes/shards/hosts_$kind.yaml" "$2$name"
+    rosparam set "$2$name/shard" "{index: $4, count: $5}"
+    case $kind in forest) type=forest_animator ;; *) type=grass_field ;; esac
+    start "$1" "$type" "$name" "__ns:=$2" "_scenario:=$scene" wind:=/wind tread:=/tread
+  done
+}
+for index in $(seq 0 $((HOSTS - 1))); do start_pair $((index + 1)) / "$index" "$index" "$HOSTS"; done
+start_pair 0 /whole/ all 0 1
+start 0 wind_broadcaster wind_broadcaster "_scenario:=$scene"
+for namespace in / /whole/; do
+  start 0 vegetation_scanner scanner "__ns:=$namespace" wind:=/wind _frame_id:=map
+done
+python3 test/nodes/shards/drive_hosts.py "$ticks" "$HOSTS" || {
+  tail -n 5 "$WORK"/*.log >&2
+  fail 'the shards are not one world'
+}

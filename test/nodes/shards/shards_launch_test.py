@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""shards.launch starts all shards of a scenario, which find each other and publish their shares."""
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import ForestState, GrassState, ShardNode
+from vegetation_sim.srv import FindTrees, GetTree
+
+from waiting import wait_for
+from watched_node import Log
+
+COUNT = 3
+
+
+def ask_for_trees(shard, trees):
+    """Returns the answers of a shard, or [] if it refuses one."""
+    get_tree = rospy.ServiceProxy('/forest_%d/get_tree' % shard, GetTree)
+    answers = [get_tree(tree=tree) for tree in trees]
+    return answers if all(answer.success for answer in answers) else []
+
+
+class ShardsLaunch(unittest.TestCase):
+    def test_all_shards_run_and_answer_for_each_other(self):
+        for part, state in (('forest', ForestState), ('grass', GrassState)):
+            found = Log('/%s/shards' % part, ShardNode)
+            found.wait(lambda all: len({m.shard for m in all}) == COUNT, 'all shards')
+            nodes = {m.shard: m for m in found.messages}
+            self.assertEqual({i: (m.node, m.shards) for i, m in nodes.items()},
+                             {i: ('/%s_%d' % (part, i), COUNT) for i in range(COUNT)})
+            Log('/%s/state' % part, state).wait(
+                lambda all: {m.shard for m in all} == set(range(COUNT)), 'states of all')
+        rospy.wait_for_service('/forest_0/get_tree', timeout=60.0)
+        trees = rospy.ServiceProxy('/forest_0/find_trees', FindTrees)(all=True, limit=1).total
+        self.assertGreater(trees, COUNT)
+        hashes = set()
+        for shard in range(COUNT):
+            # The node may hear of the others later than this test does.
+            answers = wait_for(lambda i=shard: ask_for_trees(i, (0, trees // 2, trees - 1)),
+                               'shard %d to find the others' % shard)
+            hashes.add(tuple(a.skeleton_hash for a in answers))
+        self.assertEqual(len(hashes), 1)
+
+
+if __name__ == '__main__':
+    rospy.init_node('shards_launch_test')
+    rostest.rosrun('vegetation_sim', 'shards_launch', ShardsLaunch)
