@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures procedural motion: cost per branch of the plain and the batched path against each other
 // and against the machine's memory, and what levels of detail save at what error (S1-41).
-// usage: forest_bench [ROUNDS] [--quick | --full] [--part poses,levels,growth] [--csv FILE]
+// usage: forest_bench [ROUNDS] [--quick | --full] [--part poses,levels,growth,million] [--csv FILE]
 // The file holds the part `levels`.
 
 #include <cmath>
@@ -11,7 +11,9 @@
 
 #include "bandwidth.h"
 #include "options.h"
+#include "processor_time.h"
 #include "scenes/forest/level_scene.h"
+#include "scenes/forest/physics_scene.h"
 #include "table.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -201,17 +203,66 @@ void benchGrowth(int rounds) {
               candidates[0].seconds / 256 * 1e6);
 }
 
+// ---- a million trees ---------------------------------------------------------------------------
+
+constexpr int SIDE = 1000;  // trees
+constexpr double SPACING = 8.0;
+
+// Moves 15 people of 1.5 m/s around the middle, each on a circle of its own through the trees.
+void moveBodies(Forest& forest, Nanoseconds stamp) {
+  for (int i = 0; i < 15; ++i) {
+    Body body;
+    body.id = "person_" + std::to_string(i);
+    body.shape = Shape::CAPSULE;
+    body.size = Vec3(0.25, 0.0, 1.2);
+    const double radius = 2.0 * SPACING + i, speed = 1.5;
+    const double angle = i + secondsBetween(PHYSICS_START, stamp) * speed / radius;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+    body.pose.position = Vec3(0.5 * SIDE * SPACING, 0.5 * SIDE * SPACING, 0.85) + radius * out;
+    body.velocity = speed * Vec3(-out.y(), out.x(), 0.0);
+    body.stamp = stamp;
+    forest.setBody(body);
+  }
+}
+
+// Ticks of 30 Hz with a viewer in the middle, in a breeze.
+void benchMillion() {
+  Layout layout = gridLayout(SIDE, SPACING);
+  for (TreeSeed& seed : layout.trees) seed.yaw = std::remainder(seed.yaw, 2.0 * PI);
+  Forest forest(std::move(layout), flatTerrain(), Settings());
+  forest.setWind(wind::Field({makeBreeze(1, Vec3(5, 1, 0))}));
+  Camera camera = edgeCamera(SIDE * SPACING);
+  camera.eye.position = Vec3(0.5 * SIDE * SPACING - 40.0, 0.5 * SIDE * SPACING, 3.0);
+  const TickGrid grid(30);
+  const std::int64_t first = grid.tickAt(PHYSICS_START);
+  std::vector<double> times;
+  for (int i = 0; i < 60; ++i) {
+    const Nanoseconds stamp = grid.timeOf(first + i);
+    moveBodies(forest, stamp);
+    const double before = bench::processorTime();
+    settle(forest, camera, grid, first + i, 1);
+    if (i >= 30) times.push_back(bench::processorTime() - before);
+  }
+  std::sort(times.begin(), times.end());
+  std::printf("%zu explicit trees, one viewer, 15 bodies, %zu physical branches: ",
+              forest.layout().trees.size(), forest.physicsFigures().branches);
+  std::printf("a tick takes %.2f ms (bar 4), the longest of 300 %.2f ms\n",
+              1e3 * times[times.size() / 2], 1e3 * times.back());
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest
 
 int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
-    const bench::Options options = bench::readOptions(argc, argv, {"poses", "levels", "growth"});
+    const bench::Options options =
+        bench::readOptions(argc, argv, {"poses", "levels", "growth", "million"});
     bench::Table table(options.csv, bench::LADDER_COLUMNS);
     if (options.wants("poses")) forest::benchPoses(options.rounds);
     if (options.wants("levels")) forest::benchLevels(options, table);
     if (options.wants("growth")) forest::benchGrowth(options.rounds);
+    if (options.wants("million")) forest::benchMillion();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "forest_bench: %s\n", error.what());
     return 1;

@@ -38,8 +38,12 @@ double turbulence(const std::vector<Mode>& modes) {
 
 }  // namespace
 
-double Instant::speedBound(const Vec3& position, double reach) const {
-  double bound = length(mean) + turbulence(modes);
+double Instant::steadyBound() const {
+  return length(mean) + turbulence(modes);
+}
+
+double Instant::speedBound(const Vec3& position, double reach, double steady) const {
+  double bound = steady;
   for (const Term& term : terms) bound += boundOf(term, position, reach);
   return bound;
 }

@@ -55,7 +55,13 @@ struct Instant {
   /// meets over a cycle of the primitives, the sum of those that reach it. Levels of detail depend
   /// on it, so it ignores momentary zeros of a sine, and each further wind makes them finer
   /// (S1-40).
-  double speedBound(const Vec3& position, double reach) const;
+  double speedBound(const Vec3& position, double reach) const {
+    return speedBound(position, reach, steadyBound());
+  }
+  /// The part of speedBound() that is the same everywhere [m/s], and speedBound() with it, for many
+  /// positions.
+  double steadyBound() const;
+  double speedBound(const Vec3& position, double reach, double steady) const;
 };
 
 }  // namespace vegetation_sim::wind

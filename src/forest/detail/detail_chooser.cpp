@@ -35,16 +35,27 @@ void DetailChooser::choose(const PredictionContext& context, const DetailDemand&
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
 }
 
-// Visits a tile as a whole: if even its nearest and largest tree may stand still, its trees are not
-// visited.
+// Visits trees that stand together as a whole: if even the nearest and largest may stand still,
+// they are not visited. A tree outside tiles that is held is visited in any case, since its time at
+// a level may not have passed yet.
 void DetailChooser::findPlants(const PredictionContext& context, const DetailDemand& demand,
                                int last_base, const TreeDetail& detail) {
   const TierPredictor predictor(context);
-  for (const TreeErrors::Region& region : context.errors.regions()) {
-    if (region.count > 1 && predictor.mayRest(region, demand)) continue;
-    for (std::uint32_t i = 0; i < region.count; ++i)
-      addPlant(predictor, context, demand, last_base, detail, region.first + i);
-  }
+  const auto outside_tiles = static_cast<std::uint32_t>(context.layout.trees.size());
+  const auto add = [&](std::uint32_t tree) {
+    addPlant(predictor, context, demand, last_base, detail, tree);
+  };
+  for (const auto& entry : detail.levels.held())
+    if (entry.first < outside_tiles) add(entry.first);
+  context.errors.regions().visit([&](const Ball& ball) { return !predictor.mayRest(ball, demand); },
+                                 [&](const TreeRegions::Region& region) {
+                                   for (std::uint32_t tree = region.first;
+                                        tree < region.first + region.count; ++tree)
+                                     if (tree >= outside_tiles || !detail.levels.held().count(tree))
+                                       add(tree);
+                                 });
+  std::sort(plants_.begin(), plants_.end(),
+            [](const Plant& a, const Plant& b) { return a.id < b.id; });
 }
 
 // Adds a tree unless it is and stays at the base level. `last_base` was the level of the trees that
@@ -60,10 +71,7 @@ void DetailChooser::addPlant(const TierPredictor& predictor, const PredictionCon
   const ModalTreeState* modal_state = detail.modes.find(tree);
   if (plant.held == MODAL_LEVEL && modal_state && modal_state->fine()) plant.held = FINE_MODAL_TIER;
   plant.resting = held && secondsBetween(known->second.since, context.stamp) < TIER_HOLD;
-  predictor.predict(seedOf(context.layout, tree), demand, plant);
-  plant.stepwise = std::max(plant.stepwise, demand.base);
-  plant.wanted = std::max(plant.wanted, demand.base);
-  if (plant.wanted != demand.base || plant.held != demand.base) plants_.push_back(plant);
+  if (predictor.predict(seedOf(context.layout, tree), demand, plant)) plants_.push_back(plant);
 }
 
 void DetailChooser::allocate(const Settings& settings, const DetailDemand& demand,

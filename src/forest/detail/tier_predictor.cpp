@@ -31,15 +31,15 @@ double TierPredictor::bendingSpeed(double speed, double reference_speed) const {
   return linear ? speed : speed * speed / reference_speed;
 }
 
-bool TierPredictor::mayRest(const TreeErrors::Region& region, const DetailDemand& demand) const {
+bool TierPredictor::mayRest(const Ball& region, const DetailDemand& demand) const {
   const double tolerance = context_.settings.tolerance;
-  const double speed = bendingSpeed(now_.speedBound(region.centre, region.reach),
+  const double speed = bendingSpeed(now_.speedBound(region.centre, region.reach, steady_),
                                     context_.errors.slowestReference());
   const double view = SEEN * demand.pixelsPerMetre(region.centre, region.reach, tolerance);
   return context_.errors.largestOmission() * speed * view <= HYSTERESIS * tolerance;
 }
 
-void TierPredictor::predict(const TreeSeed& seed, const DetailDemand& demand, Plant& plant) const {
+bool TierPredictor::predict(const TreeSeed& seed, const DetailDemand& demand, Plant& plant) const {
   const Settings& settings = context_.settings;
   const Budget& budget = settings.budget;
   const Species& species = context_.layout.species[seed.species];
@@ -50,10 +50,11 @@ void TierPredictor::predict(const TreeSeed& seed, const DetailDemand& demand, Pl
   const double pixels = demand.pixelsPerMetre(middle, reach, settings.tolerance);
   const double view = SEEN * pixels;
   plant.scale = pixels;
-  const double air = now_.speedBound(foot, reach);
+  const double air = now_.speedBound(foot, reach, steady_);
   const double speed = bendingSpeed(air, species.reference_speed);
   plant.stepwise = plant.wanted = std::min(
       chooseLevel(table, speed, view, settings.tolerance, plant.held), settings.highest_level);
+  if (plant.stepwise == 0 && plant.held == demand.base) return false;
   PredictedError off, besides;
   if (plant.stepwise > 0) {
     off = besides = responseErrorOf(seed, swinging_.at(foot, reach), speed / air, pixels);
@@ -77,6 +78,9 @@ void TierPredictor::predict(const TreeSeed& seed, const DetailDemand& demand, Pl
   report(MODAL_LEVEL, off.modal, budget.modal_cost);
   report(FINE_MODAL_TIER, std::min(off.modal, off.fine), budget.fine_cost);
   requestModes(besides, plant);
+  plant.stepwise = std::max(plant.stepwise, demand.base);
+  plant.wanted = std::max(plant.wanted, demand.base);
+  return plant.wanted != demand.base || plant.held != demand.base;
 }
 
 // Requests modes where the error of the procedural motion exceeds the tolerance and that of modes

@@ -27,12 +27,14 @@ class TierPredictor {
   explicit TierPredictor(const PredictionContext& context)
       : context_(context),
         now_(context.wind.at(context.stamp)),
+        steady_(now_.steadyBound()),
         swinging_(context.wind, context.stamp) {}
 
   /// Returns whether all trees of a region may stand still for a demand.
-  bool mayRest(const TreeErrors::Region& region, const DetailDemand& demand) const;
-  /// Predicts for a tree whose `held` tier is set.
-  void predict(const TreeSeed& seed, const DetailDemand& demand, Plant& plant) const;
+  bool mayRest(const Ball& region, const DetailDemand& demand) const;
+  /// Predicts for a tree whose `held` tier is set. Returns false if the tree is at the base level
+  /// of the demand and stays there; the plant then has no errors.
+  bool predict(const TreeSeed& seed, const DetailDemand& demand, Plant& plant) const;
 
  private:
   void requestModes(const PredictedError& off, Plant& plant) const;
@@ -43,6 +45,7 @@ class TierPredictor {
 
   PredictionContext context_;
   wind::Instant now_;
+  double steady_;                     // part of the bound of speed that is the same everywhere
   wind::GustSpectrumField swinging_;  // now
 };
 

@@ -3,6 +3,7 @@
 #include "forest/detail/tree_errors.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vegetation_sim::forest {
 namespace {
@@ -35,15 +36,16 @@ void TreeErrors::measure(const Layout& layout, const terrain::HeightMap& terrain
               [&](std::size_t species, double scale) { measureSpecies(layout, species, scale); });
   const terrain::Bounds bounds = terrain.bounds();
   const double relief = bounds.max_z - bounds.min_z;
-  regions_.clear();
+  std::vector<TreeRegions::Region> regions;
   for (std::uint32_t i = 0; i < layout.trees.size(); ++i)
-    if (owners.owns(i)) regions_.push_back({footOf(layout.trees[i], terrain), extent_, i, 1});
+    if (owners.owns(i)) regions.push_back({{footOf(layout.trees[i], terrain), extent_}, i, 1});
   for (const Tile& tile : layout.tiles) {
     if (!owners.owns(tile.first_tree)) continue;
     const double half = 0.5 * tile.size;
     const Vec3 centre(tile.x + half, tile.y + half, terrain.height(tile.x + half, tile.y + half));
-    regions_.push_back({centre, half * 1.5 + relief + extent_, tile.first_tree, tile.count});
+    regions.push_back({{centre, half * 1.5 + relief + extent_}, tile.first_tree, tile.count});
   }
+  regions_ = TreeRegions(std::move(regions));
 }
 
 void TreeErrors::precompute(const Layout& layout) {

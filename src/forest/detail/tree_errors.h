@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "forest/detail/tree_regions.h"
 #include "tree/growth/tree_owners.h"
 #include "tree/lod/level_table.h"
 #include "vegetation_sim/terrain/height_map.h"
@@ -15,19 +16,13 @@ namespace vegetation_sim::forest {
 /// which the trees of a shard stand.
 class TreeErrors {
  public:
-  struct Region {
-    Vec3 centre;
-    double reach;  ///< [m] around the centre, including the reach of trees
-    std::uint32_t first, count;
-  };
-
   /// Measures all trees, and lists the regions of those that the shard of `owners` owns.
   void measure(const Layout& layout, const terrain::HeightMap& terrain, const TreeOwners& owners);
   /// Computes the response errors of all species now, some 30 ms for each of a few sizes, instead
   /// of at the first tick with a listener nearby.
   void precompute(const Layout& layout);
 
-  const std::vector<Region>& regions() const { return regions_; }
+  const TreeRegions& regions() const { return regions_; }
   LevelTable tableOf(const TreeSeed& seed) const { return tables_[seed.species].at(seed.scale); }
   PredictedError responseErrorOf(const Layout& layout, const TreeSeed& seed,
                                  const wind::GustSpectrum& spectrum);
@@ -42,7 +37,7 @@ class TreeErrors {
   double extent_{0.0};               // height plus reach of the largest tree [m]
   double largest_omission_{0.0};
   double slowest_reference_{1.0};
-  std::vector<Region> regions_;
+  TreeRegions regions_;
 };
 
 }  // namespace vegetation_sim::forest
