@@ -20,8 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RANGE = r'\.(?:number|integer|vector)\(\s*"(\w+)",[^{;]*(\{[-\d.e]+, [-\d.e]+\}|\b[\w:]+)\)'
 # An archive, `a`, has names for errors only.
 FIELD = r'(?<!checker)(?<!\ba)\.(?:number|integer|vector|choice|text|flag|seed|integers|section|sections)\(\s*"(\w+)"'
-TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*"([\w/]+)"'
-SERVICE = r'advertiseService\(\s*"(\w+)"'
+TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*(?:shownTopic\()?"([\w/]+)"'
+SERVICE = r'(?:advertiseService|serve|serveShared)\(\s*"(\w+)"'
 KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint', 'robot_state_publisher'}
 # The conventions of the package explain these fields once for all messages.
 KNOWN_FIELDS = {'header', 'success', 'message', 'error_code'}

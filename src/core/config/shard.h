@@ -26,7 +26,7 @@ std::uint32_t nextIdOf(const Shard& shard, std::uint32_t least);
 /// Returns the shard that gives this id (above 0).
 std::uint32_t shardOfId(std::uint32_t id, std::uint32_t count);
 
-/// What one shard owns as a whole, such as a tile.
+/// A unit, such as a tile, is owned by one shard as a whole.
 struct ShardUnit {
   double x, y;           ///< its middle [m]
   std::uint32_t weight;  ///< share of the work

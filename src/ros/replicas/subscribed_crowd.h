@@ -55,7 +55,7 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   /// Number of changes; 0: no message has been accepted.
   int changes() const { return changes_; }
   const InputStatus& status() const { return status_; }
-  /// Of the styles, whose last invalid message is ignored.
+  /// Returns the status of the styles, whose last invalid message is ignored.
   const InputStatus& motionsStatus() const { return motions_status_; }
 
  private:

@@ -103,7 +103,7 @@ class TreadReplica {
   const std::string& why() const { return why_; }
 
  private:
-  /// What is known of the messages of a shard.
+  /// The state of the messages of one shard.
   struct Part {
     bool in_sequence{false};
     std::uint32_t sequence{0};
