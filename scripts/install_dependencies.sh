@@ -32,7 +32,8 @@ DISPLAY_COMMON=(imagemagick libgl-dev libgl1-mesa-dri libopengl-dev xauth xdotoo
 DEBIAN=(
   # These packages compile the code.
   catkin python3-catkin-pkg ros-core-dev libroscpp-dev libtf2-ros-dev libsensor-msgs-dev liburdf-dev
-  libtopic-tools-dev libcamera-info-manager-dev libimage-transport-dev
+  libtopic-tools-dev libcamera-calibration-parsers-dev libcamera-info-manager-dev
+  libimage-transport-dev
   libvisualization-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libnodeletlib-dev pluginlib-dev
@@ -47,7 +48,7 @@ DISPLAY_DEBIAN=(librviz-dev rviz)
 QT5=(qtbase5-dev)
 QT6=(qt6-base-dev qt6-svg-plugins)
 NOETIC=(
-  camera-info-manager catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs
+  camera-calibration-parsers camera-info-manager catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs
   image-transport message-generation
   message-runtime nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph rosgraph-msgs roslaunch roslib
   rosmsg rosnode rosparam rospy rosservice rostest rostopic sensor-msgs std-msgs std-srvs tf2

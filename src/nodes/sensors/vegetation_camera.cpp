@@ -13,14 +13,6 @@ namespace {
 constexpr std::uint32_t QUEUE = 4;
 constexpr std::uint64_t CAMERA = 2;  // of NoiseKeys, beside the scans of a lidar
 
-// A camera's name has letters, digits and underscores only.
-std::string nameOf(const ros::NodeHandle& private_handle) {
-  std::string out = private_handle.getNamespace().substr(1);
-  for (char& c : out)
-    if (c == '/') c = '_';
-  return out;
-}
-
 }  // namespace
 
 VegetationCamera::VegetationCamera(const ros::NodeHandle& handle,
@@ -37,8 +29,10 @@ VegetationCamera::VegetationCamera(const ros::NodeHandle& handle,
       depth_(transport_.advertiseCamera("camera/depth/image_raw", QUEUE)),
       label_(transport_.advertise("camera/label", QUEUE)),
       instance_(transport_.advertise("camera/instance", QUEUE)),
-      calibration_(ros::NodeHandle(handle_, "camera"), nameOf(private_handle_)) {
-  calibrate();
+      calibration_(private_handle_, options_.camera_info_url, options_.camera.lens),
+      calibration_service_(handle_.advertiseService("camera/set_camera_info",
+                                                    &VegetationCamera::onSetCalibration, this)) {
+  options_.camera.lens = calibration_.lens();
   start();
 }
 
@@ -46,18 +40,19 @@ VegetationCamera::~VegetationCamera() {
   stop();
 }
 
-// The lens stays as it is when the service set_camera_info changes the calibration.
-void VegetationCamera::calibrate() {
-  const std::string& url = options_.camera_info_url;
-  if (url.empty()) {
-    calibration_.setCameraInfo(toMsg(options_.camera.lens));
-    return;
+// The response has no `message`, which answer() would need.
+bool VegetationCamera::onSetCalibration(sensor_msgs::SetCameraInfo::Request& request,
+                                        sensor_msgs::SetCameraInfo::Response& response) {
+  try {
+    response.status_message = calibration_.replace(request.camera_info);
+    response.success = true;
+    options_.camera.lens = calibration_.lens();
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.status_message = error.what();
+    refused_requests_.add("set_camera_info", error.what());
   }
-  const std::string context = private_handle_.getNamespace() + "/camera_info_url = '" + url + "'";
-  if (!calibration_.validateURL(url) || !calibration_.loadCameraInfo(url))
-    throw InvalidInput(context + " is no file:// or package:// address of a calibration",
-                       FaultCode::FILE_REJECTED);
-  options_.camera.lens = fromMsg(calibration_.getCameraInfo(), context + ": ");
+  return true;
 }
 
 scan::Wanted VegetationCamera::wanted() const {
@@ -81,7 +76,7 @@ void VegetationCamera::measure(std::int64_t tick) {
 }
 
 void VegetationCamera::publish(const scan::Images& images, const scan::Wanted& wanted) {
-  sensor_msgs::CameraInfo info = calibration_.getCameraInfo();
+  sensor_msgs::CameraInfo info = calibration_.info();
   info.header.stamp = toStamp(clock_.stamp());
   info.header.frame_id = options_.camera_frame;
   const auto image = [&](const auto& pixels) {

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <camera_info_manager/camera_info_manager.h>
 #include <image_transport/image_transport.h>
+#include <sensor_msgs/SetCameraInfo.h>
 
 #include "nodes/sensors/camera_options.h"
+#include "nodes/sensors/lens_calibration.h"
 #include "nodes/sensors/sensor_base.h"
 
 namespace vegetation_sim {
@@ -22,8 +23,8 @@ class VegetationCamera final : public SensorBase {
                    const CameraOptions& options);
   void measure(std::int64_t tick) override;
   void reportValues(Status& status) override;
-  /// Sets the lens to that of `camera_info_url`, or the calibration to the lens.
-  void calibrate();
+  bool onSetCalibration(sensor_msgs::SetCameraInfo::Request& request,
+                        sensor_msgs::SetCameraInfo::Response& response);
   /// Returns the images that have subscribers.
   scan::Wanted wanted() const;
   void publish(const scan::Images& images, const scan::Wanted& wanted);
@@ -32,7 +33,8 @@ class VegetationCamera final : public SensorBase {
   image_transport::ImageTransport transport_;
   image_transport::CameraPublisher picture_, depth_;
   image_transport::Publisher label_, instance_;
-  camera_info_manager::CameraInfoManager calibration_;
+  LensCalibration calibration_;
+  ros::ServiceServer calibration_service_;
   std::uint64_t taken_{0};
   double cost_{0.0};  // wall time of the last images [s]
 };

@@ -34,6 +34,25 @@ sensor_msgs::Image imageOf(const std::vector<Value>& pixels, const scan::Lens& s
   return out;
 }
 
+// What a picture without rectification, binning and region of interest cannot follow.
+void checkRest(const sensor_msgs::CameraInfo& info, const std::string& context, Faults& faults) {
+  const auto allow = [&](const std::string& name, double value, double low, double high) {
+    FieldChecker(context, faults).number(name.c_str(), value, "", {low, high});
+  };
+  for (const std::size_t i : {1, 3, 6, 7}) allow("K[" + std::to_string(i) + "]", info.K[i], 0, 0);
+  allow("K[8]", info.K[8], 1, 1);
+  for (std::size_t i = 0; i < info.R.size(); ++i)
+    allow("R[" + std::to_string(i) + "]", info.R[i], -1, 1);
+  for (std::size_t i = 0; i < info.P.size(); ++i)
+    allow("P[" + std::to_string(i) + "]", info.P[i], -1e6, 1e6);
+  allow("binning_x", info.binning_x, 0, 1);
+  allow("binning_y", info.binning_y, 0, 1);
+  allow("roi.x_offset", info.roi.x_offset, 0, 0);
+  allow("roi.y_offset", info.roi.y_offset, 0, 0);
+  if (info.roi.width != 0) allow("roi.width", info.roi.width, info.width, info.width);
+  if (info.roi.height != 0) allow("roi.height", info.roi.height, info.height, info.height);
+}
+
 }  // namespace
 
 static_assert(sizeof(scan::Rgb8) == 3, "no gaps");
@@ -83,6 +102,7 @@ scan::Lens fromMsg(const sensor_msgs::CameraInfo& message, const std::string& co
   out.cy = message.K[5];
   out.distortion = {message.D[0], message.D[1], message.D[2], message.D[3], message.D[4]};
   scan::check(out, context, faults);
+  checkRest(message, context, faults);
   faults.throwIfAny();
   return out;
 }

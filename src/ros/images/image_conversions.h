@@ -20,7 +20,8 @@ sensor_msgs::Image toImage(const std::vector<std::int32_t>& pixels, const scan::
 
 /// Returns the calibration of a lens, without rectification. Left to the caller: the header.
 sensor_msgs::CameraInfo toMsg(const scan::Lens& lens);
-/// Returns the lens of a calibration. @throws InvalidInput with all faults, each with `context`.
+/// Returns the lens of a calibration, which must have no skew, binning or region of interest.
+/// @throws InvalidInput with all faults, each with `context`.
 scan::Lens fromMsg(const sensor_msgs::CameraInfo& message, const std::string& context);
 
 }  // namespace vegetation_sim

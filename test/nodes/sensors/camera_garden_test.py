@@ -3,6 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A camera in a garden: four images of one instant with labels, ids and depths of what is there,
 their calibration, and the announcement without a subscriber."""
+import contextlib
+import copy
 import math
 import os
 import tempfile
@@ -13,6 +15,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.srv import SetCameraInfo
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ScanReport, SensorInterest
@@ -48,6 +51,10 @@ class Camera(WatchedNode):
         super().__init__(namespace + 'vegetation_camera', 'camera',
                          namespace + 'vegetation_camera/reset', Trigger)
 
+    def calibrate(self, info):
+        rospy.wait_for_service(self.space + 'set_camera_info', DEADLINE)
+        return rospy.ServiceProxy(self.space + 'set_camera_info', SetCameraInfo)(camera_info=info)
+
     def subscribe(self):
         self.images = {name: Log(self.space + topic, Image) for name, topic in self.TOPICS}
         self.infos = {name: Log(self.space + topic, CameraInfo) for name, topic in
@@ -63,6 +70,20 @@ class Camera(WatchedNode):
                 messages[kind + name] = log.wait(
                     lambda all: [m for m in all if m.header.stamp >= stamp][:1], name, remind)[0]
         return messages
+
+
+@contextlib.contextmanager
+def ground_camera(calibration):
+    """Runs a camera over bare ground with a file of its calibration."""
+    process = start_node('vegetation_camera', '/ground/vegetation_camera', {},
+                         camera_frame='ground_camera', camera_info_url='file://' + calibration,
+                         rate=RATE, delay=0.0)
+    try:
+        camera = Camera('/ground/')
+        camera.wait_until_up()
+        yield camera
+    finally:
+        stop(process)
 
 
 def array_of(image):
@@ -150,7 +171,6 @@ class CameraGarden(unittest.TestCase):
         self.assertEqual((info.distortion_model, list(info.D)), ('plumb_bob', [0.0] * 5))
         self.assertEqual(info.P[0], focal)
         self.assertEqual(messages['info of depth'], info)
-        rospy.wait_for_service('/camera/set_camera_info', DEADLINE)
 
     def test_3_labels_instances_and_depths_are_those_of_the_garden(self):
         messages = self.take()
@@ -180,26 +200,84 @@ class CameraGarden(unittest.TestCase):
             name = os.path.join(folder, 'calibration.yaml')
             with open(name, 'w') as file:
                 file.write(CALIBRATION)
-            process = start_node('vegetation_camera', '/ground/vegetation_camera', {},
-                                 camera_frame='ground_camera', camera_info_url='file://' + name,
-                                 rate=RATE, delay=0.0)
-            try:
-                ground = Camera('/ground/')
-                ground.wait_until_up()
-                messages = self.take(ground)
-            finally:
-                stop(process)
+            with ground_camera(name) as ground:
+                info = self.check_ground(ground)
+                self.assertEqual((info.K[0], info.K[4], info.K[2], info.K[5]),
+                                 (140.0, 138.0, 82.0, 59.0))
+                self.assertEqual(list(info.D), [-0.2, 0.03, 0.001, -0.002, 0.0])
+                # The ray of the principal point.
+                depth = array_of(self.take(ground)['depth'])
+                self.assertAlmostEqual(depth[59, 82], HEIGHT / math.sin(DOWN), delta=2e-3)
+
+                wanted = copy.deepcopy(info)
+                wanted.D = [-0.1, 0.01, 0.0, 0.001, 0.0]
+                wanted.K = [120.0, 0, 75.0, 0, 125.0, 66.0, 0, 0, 1]
+                answer = ground.calibrate(wanted)
+                self.assertTrue(answer.success, answer)
+                self.assertIn('saved in file://' + name, answer.status_message)
+                self.assertEqual(self.check_ground(ground).K, tuple(wanted.K))
+            with ground_camera(name) as ground:
+                info = self.check_ground(ground)
+                numpy.testing.assert_allclose(info.K, wanted.K, rtol=1e-12)
+                numpy.testing.assert_allclose(info.D, wanted.D, rtol=1e-12)
+                os.remove(name)
+                os.mkdir(name)  # no file can take this name
+                self.assertIn('cannot be written', ground.calibrate(wanted).status_message)
+
+    def test_5_calibrations_that_no_picture_follows_are_refused(self):
+        before = self.take()['info of picture']
+        nan = float('nan')
+        for words, change in (
+                ('width = 640 pixel, allowed is that of the camera, 161 pixel', dict(width=640)),
+                ('height = 0 pixel, allowed is that of the camera, 121 pixel', dict(height=0)),
+                ("distortion_model = 'equidistant' is not plumb_bob",
+                 dict(distortion_model='equidistant')),
+                ('D has 4 numbers', dict(D=[0.0] * 4)), ('k1 = nan is', dict(D=[nan] + [0.0] * 4)),
+                ('fx = nan pixel is', dict(K=[nan] + list(before.K[1:]))),
+                ('K[1] = 3 is outside 0 to 0', dict(K=[before.K[0], 3.0] + list(before.K[2:]))),
+                ('P[2] = nan is', dict(P=list(before.P[:2]) + [nan] + list(before.P[3:]))),
+                ('binning_x = 2 is outside 0 to 1', dict(binning_x=2)),
+                ('no inverse at pixel', dict(D=[-9.0, 0.0, 0.0, 0.0, 0.0]))):
+            with self.subTest(words=words):
+                bad = copy.deepcopy(before)
+                for name, value in change.items():
+                    setattr(bad, name, value)
+                answer = self.camera.calibrate(bad)
+                self.assertFalse(answer.success)
+                self.assertIn(words, answer.status_message)
+        after = self.take()['info of picture']
+        self.assertGreater(after.header.stamp, before.header.stamp)
+        after.header = before.header
+        self.assertEqual(after, before)
+
+    def test_6_the_picture_follows_the_lens(self):
+        before = self.take()
+        info = copy.deepcopy(before['info of picture'])
+        wanted = copy.deepcopy(info)
+        wanted.K = [2 * info.K[0], 0, info.K[2], 0, 2 * info.K[4], info.K[5], 0, 0, 1]
+        self.assertIn('not saved without camera_info_url',
+                      self.camera.calibrate(wanted).status_message)
+        after = self.take()
+        self.assertTrue(self.camera.calibrate(info).success)
+        self.assertEqual(after['info of depth'].K, tuple(wanted.K))
+        # With twice the focal length, every second pixel of the middle is an old pixel.
+        old, new = (array_of(m['label']) for m in (before, after))
+        middle, near = old[30:91, 40:121], new[0:121:2, 0:161:2]
+        self.assertGreater((middle == near).mean(), 0.8)
+        self.assertLess((old == new).mean(), 0.8)
+
+    def check_ground(self, camera):
+        """Checks that the depths of a camera over bare ground are those of its calibration, which
+        is returned."""
+        messages = self.take(camera)
         info, depth = messages['info of depth'], array_of(messages['depth'])
-        self.assertEqual((info.K[0], info.K[4], info.K[2], info.K[5]), (140.0, 138.0, 82.0, 59.0))
-        self.assertEqual(list(info.D), [-0.2, 0.03, 0.001, -0.002, 0.0])
         # The camera looks down by DOWN: a pixel's ray falls by sin(DOWN) + y cos(DOWN) per depth.
         x, y = undistorted(info)
         fall = math.sin(DOWN) + y * math.cos(DOWN)
         hit = (depth > 0.0) & numpy.isfinite(depth)
         self.assertTrue(hit[60:].all())
         numpy.testing.assert_allclose((depth * fall)[hit], HEIGHT, atol=2e-3)
-        # The ray of the principal point.
-        self.assertAlmostEqual(depth[59, 82], HEIGHT / math.sin(DOWN), delta=2e-3)
+        return info
 
     def take(self, camera=None):
         """Returns all messages of one stamp."""

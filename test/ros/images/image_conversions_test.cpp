@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <functional>
 
 namespace vegetation_sim {
 namespace {
@@ -70,6 +72,29 @@ TEST(ImageConversions, BadCalibrationsAreRejected) {
   info.distortion_model = "rational_polynomial";
   EXPECT_NE(refusal(info).find("distortion_model = 'rational_polynomial' is not plumb_bob"),
             std::string::npos);
+}
+
+TEST(ImageConversions, CalibrationsWithSkewBinningOrRegionAreRejected) {
+  const sensor_msgs::CameraInfo good = toMsg(scan::lensOf(scan::LensSettings()));
+  const auto refusal = [&](const std::function<void(sensor_msgs::CameraInfo&)>& change) {
+    sensor_msgs::CameraInfo info = good;
+    change(info);
+    try {
+      fromMsg(info, "lens: ");
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal([](auto& i) { i.K[1] = 2; }).find("lens: K[1] = 2 is outside 0 to 0"),
+            std::string::npos);
+  EXPECT_NE(refusal([](auto& i) { i.R[4] = NAN; }).find("lens: R[4] = nan"), std::string::npos);
+  EXPECT_NE(refusal([](auto& i) { i.P[3] = 1e7; }).find("lens: P[3] = 1e+07"), std::string::npos);
+  EXPECT_NE(refusal([](auto& i) { i.binning_y = 3; }).find("lens: binning_y = 3"),
+            std::string::npos);
+  EXPECT_NE(refusal([](auto& i) { i.roi.width = 3; }).find("lens: roi.width = 3 is outside 320"),
+            std::string::npos);
+  EXPECT_EQ(refusal([](auto& i) { i.roi.width = i.width; }), "");
 }
 
 }  // namespace
