@@ -22,6 +22,7 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
                 loadCanopyOptions(private_handle)),
       canopy_(options_.scene.layout),
       plants_(options_.scene.layout.plants),
+      cover_(options_.scene.layout, options_.cover_resolution),
       forest_({options_.frame_id, false,
                [this](const std::string& input, const std::string& why) {
                  refusals_.add(input, why);
@@ -36,6 +37,7 @@ CanopyAnimator::CanopyAnimator(const ros::NodeHandle& handle, const ros::NodeHan
       winds_(MOST_WINDS) {
   layout_publisher_ = handle_.advertise<CanopyLayout>("canopy/layout", 1, true);
   state_publisher_ = handle_.advertise<CanopyState>("canopy/state", 1000);
+  cover_publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("canopy/cover/cut", 1);
   contacts_publisher_ = handle_.advertise<PlantContacts>("canopy/contacts", 1000);
   publishLayout();
   start("canopy", "canopy/markers", markers_);
@@ -65,6 +67,7 @@ void CanopyAnimator::tick(std::int64_t tick) {
   }
   applyInputs(stamp);
   canopy_.advance(stamp);
+  publishCover(tick);
   publishState(tick);
   publishContacts();
 }

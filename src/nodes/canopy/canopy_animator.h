@@ -16,6 +16,7 @@
 #include "canopy/plants/plant_index.h"
 #include "nodes/base/event_node.h"
 #include "nodes/bodies/robot_bodies.h"
+#include "nodes/canopy/canopy_cover.h"
 #include "nodes/canopy/canopy_options.h"
 #include "nodes/canopy/delayed_people.h"
 #include "nodes/cutters/cutter_follower.h"
@@ -74,6 +75,7 @@ class CanopyAnimator final
   void publishLayout();
   void publishState(std::int64_t tick);
   void publishContacts();
+  void publishCover(std::int64_t tick);
   std::vector<Viewpoint> markerViewers(Nanoseconds stamp) override;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override { markers_.reportTiers(status); }
@@ -87,7 +89,9 @@ class CanopyAnimator final
 
   canopy::Canopy canopy_;
   canopy::PlantIndex plants_;
-  SubscribedForest forest_;  // whose crowns have leaves of the layout
+  CanopyCover cover_;
+  std::uint32_t cover_subscribers_{0};  // at the last tick
+  SubscribedForest forest_;             // whose crowns have leaves of the layout
   LeafedCrowns crowns_;
   CanopyMarkers markers_;
   RobotBodies bodies_;
@@ -110,7 +114,7 @@ class CanopyAnimator final
   std::uint64_t reported_resets_{0};   // of the fluid, when diagnostics were last sent
   std::uint64_t reported_refused_{0};  // plants that did not lean, likewise
 
-  ros::Publisher layout_publisher_, state_publisher_, contacts_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, contacts_publisher_, cover_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -3,6 +3,7 @@
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/canopy/pushing_bodies.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
 
@@ -14,6 +15,19 @@ void CanopyAnimator::publishState(std::int64_t tick) {
   message.header.frame_id = options_.frame_id;
   state_bytes_ += ros::serialization::serializationLength(message);
   state_publisher_.publish(message);
+}
+
+// Once a second, and at once after a cut or for a new subscriber.
+void CanopyAnimator::publishCover(std::int64_t tick) {
+  const std::uint32_t subscribers = cover_publisher_.getNumSubscribers();
+  const bool is_new = subscribers > cover_subscribers_;
+  cover_subscribers_ = subscribers;
+  if (subscribers == 0 || canopy_.layout().plants.empty()) return;
+  if (!is_new && !cuts_changed_ && tick % clock_.grid().rate() != 0) return;
+  nav_msgs::OccupancyGrid message = cover_.cutShare(canopy_.snapshot().push.stubble);
+  message.header.stamp = toStamp(clock_.stamp());
+  message.header.frame_id = options_.frame_id;
+  cover_publisher_.publish(message);
 }
 
 // The last message after the last body has no forces.

@@ -41,10 +41,11 @@ CanopyScene loadCanopyScene(const std::string& name);
 
 /// Parameters of canopy_animator; see docs/reference.md.
 struct CanopyOptions : NodeOptions {
-  double tolerance{1.0};   ///< error of what is drawn, at 1000 pixels a radian [pixel]
-  double frame_wait{0.0};  ///< for the transforms of bodies at a tick [s]
-  bool walkers{true};      ///< whether the people on `agents` push plants
-  RobotParts robot;        ///< bodies that push plants
+  double tolerance{1.0};         ///< error of what is drawn, at 1000 pixels a radian [pixel]
+  double cover_resolution{0.5};  ///< edge of a cell of canopy/cover/cut [m]
+  double frame_wait{0.0};        ///< for the transforms of bodies at a tick [s]
+  bool walkers{true};            ///< whether the people on `agents` push plants
+  RobotParts robot;              ///< bodies that push plants
   std::vector<FollowedCutter> cutters;
   CanopyScene scene;
 };

@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Point
+from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import Header
 from std_srvs.srv import SetBool, Trigger
 from vegetation_sim.msg import CanopyEvent, CanopyState, ErrorCode, GrassCut
@@ -47,6 +48,7 @@ class CanopyCut(ReplayedLeaves, unittest.TestCase):
         self.expect_refusals()
         self.expect_a_tool_to_cut()
         self.expect_a_late_subscriber_to_know()
+        self.expect_the_map_to_show_cut_plants()
         self.expect_snapshot_and_reset()
         self.expect_a_cut_after_a_reset()
         self.expect_equal_replay()
@@ -121,6 +123,29 @@ class CanopyCut(ReplayedLeaves, unittest.TestCase):
         lists = [m for m in late.messages if m.lists_cuts]
         self.assertEqual(lists[0].cut_plants, (0, 1))
         late.close()
+
+    def expect_the_map_to_show_cut_plants(self):
+        """The shrubs stand at (0, 0) and (2, 0.3), so that the map has five cells in a row."""
+        cover = Log('/canopy/cover/cut', OccupancyGrid)
+        last = cover.wait(len, 'a map', lambda: self.run_ticks(1)) and cover.messages[-1]
+        self.assertEqual(last.header.frame_id, 'map')
+        self.assertEqual((last.info.width, last.info.height, last.info.resolution), (5, 1, 0.5))
+        self.assertEqual((last.info.origin.position.x, last.info.origin.position.y), (0.0, 0.0))
+        self.assertEqual(last.data, (100, -1, -1, -1, 100))
+        self.assertTrue(rospy.ServiceProxy('/canopy_animator/reset', Trigger)().success)
+        self.run_ticks(RATE + 1)
+        self.assertEqual(cover.wait(lambda all: [m for m in all if m.data[0] == 0], 'no cuts',
+                                    lambda: self.run_ticks(1))[0].data, (0, -1, -1, -1, 0))
+        corners = (1.5, -1.0), (3.0, -1.0), (3.0, 1.0), (1.5, 1.0)
+        self.assertEqual(self.cut(cut=self.area(0.2, *corners)).plants, 1)
+        before = len(cover.messages)
+        self.run_ticks(1)
+        self.assertEqual(cover.wait(lambda all: all[before:], 'a map after a cut')[0].data,
+                         (0, -1, -1, -1, 100))
+        self.cut(cut=self.area(0.8, (0.0, 0.1), radius=0.2))
+        self.run_ticks(1)
+        self.assertEqual(self.cuts(), {0: 0.8, 1: 0.2})
+        cover.close()
 
     def expect_snapshot_and_reset(self):
         saved = rospy.ServiceProxy('/canopy_animator/save_snapshot', SaveSnapshot)(name='cut')

@@ -11,7 +11,7 @@ from refusing_node import Ranges, RefusingNode
 # Each parameter with its unit, minimum and maximum.
 NUMBERS = {
     'markers_rate': (' Hz', 0.1, 60), 'tolerance': (' pixel', 0.01, 1000),
-    'frame_wait': (' s', 0, 60),
+    'frame_wait': (' s', 0, 60), 'cover_resolution': (' m', 0.02, 100),
     'checkpoint_period': (' s', 0, 86400),
     'replay_delay': (' s', 0, 10), 'turbulence': ('', 0, 1),
     'law_gain': ('', 0, 10), 'frequency': (' Hz', 0.05, 20), 'damping': ('', 0, 50),
