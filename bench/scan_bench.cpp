@@ -6,7 +6,7 @@
 // the update of the scene to a stamp; views of the sky; images of a camera. Rays, updates, views
 // and images in processor time of one thread, sweeps and the update of the trees with two threads
 // in wall time.
-// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,update,sky,images]
+// usage: scan_bench [ROUNDS] [--quick] [--part rays,sets,sweeps,presets,update,sky,images]
 
 #include <algorithm>
 #include <cstdio>
@@ -21,6 +21,7 @@
 #include "sensors/sky_view.h"
 #include "sensors/sweep.h"
 #include "vegetation_sim/core/config/instruction_set.h"
+#include "vegetation_sim/core/config/yaml.h"
 
 namespace vegetation_sim::scan {
 namespace {
@@ -153,6 +154,28 @@ void benchSweeps(const std::vector<View>& views, const std::vector<NamedLidar>& 
                   1e3 * candidates[0].least, 1e3 * candidates[1].least,
                   candidates[0].least / candidates[1].least);
     }
+}
+
+// Sweeps of the shipped presets among wood, leaves and a lawn.
+void benchPresets(const View& view, int rounds) {
+  std::printf("\n%-22s %12s %12s %12s\n", "presets", "1 thread", "2 threads", "period");
+  ThreadPool one(1), two(2);
+  for (const char* name : {"vlp16", "os1_64", "os1_128", "utm30lx"}) {
+    Lidar lidar;
+    Faults faults;
+    const std::string file = PACKAGE_FOLDER "/config/sensors/" + std::string(name) + ".yaml";
+    YamlSection section(loadYamlFile(file), file, faults);
+    describe(section, lidar);
+    faults.throwIfAny();
+    Pose sensor;
+    sensor.position = view.sensor;
+    std::vector<bench::Candidate> candidates{
+        {"1", [&] { sweep(*view.scene, lidar, sensor, {}, one); }},
+        {"2", [&] { sweep(*view.scene, lidar, sensor, {}, two); }}};
+    bench::timeInterleaved(candidates, rounds);
+    std::printf("%-22s %9.1f ms %9.1f ms %9.1f ms\n", name, 1e3 * candidates[0].least,
+                1e3 * candidates[1].least, 1e3 / lidar.rate);
+  }
 }
 
 void benchUpdate(const forest::ForestReplica& forest, const Lawn& lawn, Grove& grove, int rounds) {
@@ -301,6 +324,7 @@ void run(const bench::Options& options) {
   if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
   if (options.wants("sets")) benchSets(scenes.views(), lidars[0], options.rounds);
   if (options.wants("sweeps")) benchSweeps(scenes.views(), lidars, std::min(options.rounds, 5));
+  if (options.wants("presets")) benchPresets(scenes.views()[3], std::min(options.rounds, 5));
   if (options.wants("update"))
     benchUpdate(scenes.forest(), scenes.lawn(), scenes.grove(), options.rounds);
   if (options.wants("sky")) benchSky(scenes.views(), options.rounds);
@@ -313,7 +337,7 @@ void run(const bench::Options& options) {
 int main(int argc, char** argv) {
   try {
     vegetation_sim::scan::run(vegetation_sim::bench::readOptions(
-        argc, argv, {"rays", "sets", "sweeps", "update", "sky", "images"}));
+        argc, argv, {"rays", "sets", "sweeps", "presets", "update", "sky", "images"}));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scan_bench: %s\n", error.what());

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "canopy/canopy_layout_reader.h"
 #include "package_folder.h"
 #include "vegetation_sim/core/config/yaml.h"
 #include "wind/wind_reader.h"
@@ -45,7 +46,8 @@ void readPlants(YamlSection& file, Scenario& out, Faults& faults) {
   if (out.forest) out.forest->terrain_hash = out.terrain->hash();
   if (out.grass) out.grass->layout.terrain_hash = out.terrain->hash();
   if (file.has("canopy"))
-    out.canopy = canopy::readLayout(file.section("canopy"), *out.terrain, out.seed, faults);
+    out.canopy =
+        canopy::readLayout(file.section("canopy"), BASE_FOLDER, *out.terrain, out.seed, faults);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "canopy/canopy_layout_reader.h"
 #include "core/config/scenario.h"
 #include "crowd/agents/crowd_scene.h"
 #include "forest/forest.h"
@@ -76,7 +77,8 @@ inline ShippedScene loadShippedScene(const std::string& name) {
     physics.finish();
   }
   if (file.has("canopy"))
-    out.canopy = canopy::readLayout(file.section("canopy"), *out.terrain, seed, file.faults());
+    out.canopy =
+        canopy::readLayout(file.section("canopy"), folder, *out.terrain, seed, file.faults());
   if (file.has("crowd")) {
     YamlSection crowd = file.section("crowd");
     out.crowd = crowd::readScene(crowd, seed, file.faults());

@@ -17,8 +17,11 @@ inline const std::vector<std::string>& speciesNames() {
   return NAMES;
 }
 
+/// A shipped species, whose branches never break.
 inline Species shippedSpecies(const std::string& name) {
-  return loadSpecies(std::string(PACKAGE_FOLDER) + "/config/species/" + name + ".yaml");
+  Species out = loadSpecies(std::string(PACKAGE_FOLDER) + "/config/species/" + name + ".yaml");
+  out.strength = 0.0;
+  return out;
 }
 
 /// `side` x `side` trees of all species, `spacing` metres apart, from the origin on.

@@ -1,10 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "canopy/canopy_layout_reader.h"
+
 #include <map>
 
+#include "core/config/base_file.h"
 #include "core/math/growth_stage.h"
 #include "terrain/plant_rows.h"
-#include "vegetation_sim/canopy/canopy_layout.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
@@ -29,15 +31,22 @@ void readMotion(YamlSection& section, Motion& motion) {
   section.integer("rate", motion.rate, "Hz", {1, 240});
 }
 
-void readKinds(YamlSection& section, std::vector<PlantKind>& kinds) {
+void readKindKeys(YamlSection& entry, PlantKind& kind) {
+  entry.text("name", kind.name);
+  entry.text("file", kind.file);
+  describe(entry, kind);
+  if (kind.shape == PlantShape::MESH) entry.text("rigid", kind.rigid);
+  if (kind.shape == PlantShape::TRELLIS) kind.push.stiffness = 0.0;
+  describe(entry, kind.push);
+}
+
+/// @param folder of the scenario; empty: kinds have no `base`, since the text is of a message.
+void readKinds(YamlSection& section, const std::string& folder, std::vector<PlantKind>& kinds) {
   for (YamlSection& entry : section.sections("kinds")) {
     PlantKind kind;
-    entry.text("name", kind.name);
-    entry.text("file", kind.file);
-    describe(entry, kind);
-    if (kind.shape == PlantShape::MESH) entry.text("rigid", kind.rigid);
-    if (kind.shape == PlantShape::TRELLIS) kind.push.stiffness = 0.0;
-    describe(entry, kind.push);
+    if (!folder.empty())
+      readBase(entry, folder + "/../plants", [&](YamlSection& base) { readKindKeys(base, kind); });
+    readKindKeys(entry, kind);
     double stage = GROWN;
     entry.number("stage", stage, "", {SEEDLING, GROWN});
     entry.finish();
@@ -71,15 +80,19 @@ void readCrowns(YamlSection& section, Layout& layout) {
 
 class LayoutReader {
  public:
-  LayoutReader(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
-               Faults& faults)
-      : section_(std::move(section)), terrain_(terrain), seed_(seed), faults_(faults) {
+  LayoutReader(YamlSection section, std::string folder, const terrain::HeightMap& terrain,
+               std::uint64_t seed, Faults& faults)
+      : section_(std::move(section)),
+        folder_(std::move(folder)),
+        terrain_(terrain),
+        seed_(seed),
+        faults_(faults) {
     out_.seed = seed;
   }
 
   Layout read() {
     readMotion(section_, out_.motion);
-    readKinds(section_, out_.kinds);
+    readKinds(section_, folder_, out_.kinds);
     readCrowns(section_, out_);
     for (YamlSection& plant : section_.sections("plants")) readPlant(plant);
     for (YamlSection& bed : section_.sections("beds")) readBed(bed);
@@ -154,6 +167,7 @@ class LayoutReader {
   }
 
   YamlSection section_;
+  std::string folder_;
   const terrain::HeightMap& terrain_;
   std::uint64_t seed_, drawn_{0};
   int planted_{0};  // in rows
@@ -163,9 +177,14 @@ class LayoutReader {
 
 }  // namespace
 
+Layout readLayout(YamlSection section, const std::string& folder, const terrain::HeightMap& terrain,
+                  std::uint64_t seed, Faults& faults) {
+  return LayoutReader(std::move(section), folder, terrain, seed, faults).read();
+}
+
 Layout readLayout(YamlSection section, const terrain::HeightMap& terrain, std::uint64_t seed,
                   Faults& faults) {
-  return LayoutReader(std::move(section), terrain, seed, faults).read();
+  return readLayout(std::move(section), "", terrain, seed, faults);
 }
 
 std::string writeLaw(const Layout& layout) {
@@ -209,7 +228,7 @@ Layout parseLaw(const std::string& text, const std::string& name) {
   YamlSection section(node, name, faults);
   Layout out;
   readMotion(section, out.motion);
-  readKinds(section, out.kinds);
+  readKinds(section, "", out.kinds);
   readCrowns(section, out);
   section.finish();
   faults.throwIfAny();

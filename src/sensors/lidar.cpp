@@ -57,7 +57,7 @@ void describe(FieldVisitor& v, Lidar& lidar) {
 
 void check(const Lidar& lidar, const std::string& context, Faults& faults) {
   check(lidar.beams, context, faults);
-  check(lidar.model.shape, context, faults);
+  check(lidar.model, context, faults);
 }
 
 Vec3 directionOf(const Beams& b, int ring, int column) {

@@ -3,6 +3,8 @@
 #include "wind/wind_reader.h"
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "wind/limits.h"
 
@@ -42,16 +44,61 @@ void readTimes(YamlSection& section, Primitive& p) {
   if (p.t_off <= p.t_on) section.fault("end", "is not after start");
 }
 
+// A breeze with the defaults of flowing water [N11].
+const char* const CURRENT = "current";
+Primitive makeCurrent() {
+  Primitive out;
+  out.kind = Kind::BREEZE;
+  out.velocity = Vec3(0.3, 0.0, 0.0);
+  out.turbulence = 0.1;
+  out.length_scale = 3.0;  // as large as the depth of shallow water
+  return out;
+}
+
+// Returns false if the kind, which decides which keys are allowed, is unknown.
+bool readKind(YamlSection& section, Primitive& p) {
+  if (!section.has("kind")) section.fault("kind", "is missing");
+  std::vector<std::string> names = kindNames();
+  const auto current = static_cast<int>(names.size());
+  names.emplace_back(CURRENT);
+  int kind = -1;
+  section.choice("kind", kind, names);
+  if (kind < 0) return false;
+  if (kind == current)
+    p = makeCurrent();
+  else
+    p.kind = static_cast<Kind>(kind);
+  return true;
+}
+
+// Reads all fields but the kind, which is known.
+class FieldReader : public FieldVisitor {
+ public:
+  explicit FieldReader(YamlSection& section) : section_(section) {}
+  void number(const char* name, double& value, const char* unit, Range range) override {
+    section_.number(name, value, unit, range);
+  }
+  void integer(const char* name, int& value, const char* unit, Range range) override {
+    section_.integer(name, value, unit, range);
+  }
+  void vector(const char* name, Vec3& value, const char* unit, Range range) override {
+    section_.vector(name, value, unit, range);
+  }
+  void choice(const char* name, int& value, const std::vector<std::string>& names) override {
+    if (std::string(name) != "kind") section_.choice(name, value, names);
+  }
+
+ private:
+  YamlSection& section_;
+};
+
 Source readSource(YamlSection& section) {
   Source source;
   Primitive& p = source.primitive;
+  if (!readKind(section, p)) return source;
   section.text("name", p.name);
-  if (!section.has("kind")) section.fault("kind", "is missing");
-  int kind = -1;
-  section.choice("kind", kind, kindNames());
-  if (kind < 0) return source;  // the kind decides which keys are allowed
-  p.kind = static_cast<Kind>(kind);
-  describe(section, p);
+  FieldReader fields(section);
+  describe(fields, p);
   section.text("attached_frame", source.attached_frame);
   readTimes(section, p);
   p.trajectory = readTrajectory(section);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "canopy/canopy_layout_reader.h"
 #include "core/config/scenario.h"
 #include "core/error_text.h"
 #include "package_folder.h"
@@ -12,10 +13,12 @@
 namespace vegetation_sim::canopy {
 namespace {
 
+const std::string FOLDER = PACKAGE_FOLDER "/config/scenarios";
+
 Layout read(const std::string& text) {
   Scenario scenario = Scenario::parse(text, "scene.yaml");
   const terrain::HeightMap flat;
-  Layout out = readLayout(scenario.section("canopy"), flat, 9, scenario.faults());
+  Layout out = readLayout(scenario.section("canopy"), FOLDER, flat, 9, scenario.faults());
   scenario.finish();
   return out;
 }
@@ -67,7 +70,7 @@ TEST(Layout, PlantsRowsOnTheTerrain) {
   law.resolution = 10.0;
   law.height_max = 4.0;
   const terrain::HeightMap slope(law, {2, 2, 1, {0, 1, 0, 1}});
-  const Layout layout = readLayout(scenario.section("canopy"), slope, 9, scenario.faults());
+  const Layout layout = readLayout(scenario.section("canopy"), FOLDER, slope, 9, scenario.faults());
   scenario.finish();
   ASSERT_EQ(layout.plants.size(), 6U);
   for (const Plant& plant : layout.plants)
@@ -161,7 +164,8 @@ TEST(Layout, OfEachScenarioIsAcceptedAndMoves) {
     Scenario scenario =
         Scenario::load(PACKAGE_FOLDER "/config/scenarios/" + std::string(name) + ".yaml");
     const terrain::HeightMap flat;
-    const Layout layout = readLayout(scenario.section("canopy"), flat, 1, scenario.faults());
+    const Layout layout =
+        readLayout(scenario.section("canopy"), FOLDER, flat, 1, scenario.faults());
     scenario.finish();
     EXPECT_GT(layout.leafCount(), 10000U) << name;
     EXPECT_LT(6 * layout.leafCount(), 300000U) << name;
@@ -172,6 +176,28 @@ TEST(Layout, OfEachScenarioIsAcceptedAndMoves) {
     const Vec3 top = plant.position + Vec3(0.0, 0.0, 1.0);
     EXPECT_GT(length(canopy.foliage().displacement(top, top, 0)), 0.005) << name;
   }
+}
+
+// N11: crops are described once, in config/plants.
+TEST(Layout, KindsTakeTheValuesOfTheirBase) {
+  const Layout layout =
+      read("canopy: {kinds: [{base: maize}, {base: maize, name: tall, height: 3}]}");
+  ASSERT_EQ(layout.kinds.size(), 2u);
+  EXPECT_EQ(layout.kinds[0].name, "maize");
+  EXPECT_EQ(layout.kinds[0].shape, PlantShape::STALK);
+  EXPECT_EQ(layout.kinds[0].height, 2.4);
+  EXPECT_EQ(layout.kinds[0].push.stiffness, 6.0);
+  EXPECT_EQ(layout.kinds[1].name, "tall");
+  EXPECT_EQ(layout.kinds[1].height, 3.0);
+  EXPECT_EQ(layout.kinds[1].leaves, layout.kinds[0].leaves);
+  const auto fault = [](const std::string& base) {
+    return errorOf([&] { read("canopy: {kinds: [{base: " + base + "}]}"); });
+  };
+  EXPECT_NE(fault("banana").find("kinds[0]: base = 'banana': "), std::string::npos);
+  EXPECT_NE(fault("../species/oak").find("has other letters than a to z"), std::string::npos);
+  // A message reads no file.
+  EXPECT_NE(errorOf([] { parseLaw("kinds: [{base: maize}]", "law"); }).find("base is not a known"),
+            std::string::npos);
 }
 
 TEST(Layout, SurvivesTheTextOfItsLaw) {

@@ -43,6 +43,33 @@ TEST(Export, LinksStandAtTheFeetOfTheTrees) {
   }
 }
 
+// N14: on a slope, trees of the list and of tiles stand on the ground, and
+// their cylinders with them.
+TEST(Export, OnASlopeTreesOfTilesStandOnTheGround) {
+  const terrain::HeightMap ground = grass::slopedGround(0.3, -0.1);
+  Layout layout = gridLayout(2, 7.0);
+  for (std::uint32_t i = 0; i < 2; ++i)
+    layout.tiles.push_back({4 + 5 * i, 5, 4 + i, 16.0 + 6.0 * i, 2.0, 6.0, {1.f, 0.f, 2.f, 0.f}});
+  std::ostringstream sdf, table;
+  writeSdf(layout, ground, {}, sdf);
+  const auto links = numbersOf(sdf.str(), "<link name=\"tree_[0-9]+\"><pose>([^<]*)<");
+  ASSERT_EQ(links.size(), 14u);
+  writeTable(layout, ground, table);
+  std::istringstream lines(table.str());
+  std::string line;
+  std::getline(lines, line);
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    const Tree tree = growTree(layout, i, ground);
+    const std::vector<double>& at = links[i];
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(at[axis], tree.foot[axis], 1e-7) << i;
+    EXPECT_NEAR(at[2], ground.height(at[0], at[1]), 1e-6) << i;
+    EXPECT_TRUE(i < 4 || (at[0] >= 16.0 && at[0] <= 28.0 && at[1] >= 2.0 && at[1] <= 8.0)) << i;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.rfind(std::to_string(i) + ",", 0), 0u);
+  }
+  EXPECT_GT(std::abs(links[13][2] - links[0][2]), 1.0);
+}
+
 // N14: each cylinder goes from the base of its branch to its tip at any inclination.
 TEST(Export, CylindersLieOnTheirBranches) {
   Layout layout = gridLayout(1, 1.0);

@@ -59,6 +59,44 @@ TEST(Lidar, PresetsHaveTheAnglesAndRatesOfTheirDataSheets) {
   EXPECT_NEAR(azimuth(1080), 135.0, 1e-3);
 }
 
+TEST(Lidar, PresetsHaveTheRangesAndNoiseOfTheirDataSheets) {
+  // A target of 80 % at 0.8 m and 120 m is detected, one of 10 % at 40 m in half of all cases.
+  for (const char* name : {"os1_64", "os1_128"}) {
+    const Lidar os1 = load(name);
+    EXPECT_EQ(os1.beams.range_min, 0.8);
+    EXPECT_EQ(os1.beams.range_max, 120.0);
+    EXPECT_NEAR(detectionProbability(os1.model.detection, 0.1, 1.0, 40.0), 0.5, 1e-12);
+    EXPECT_EQ(os1.model.returns, ReturnMode::STRONGEST);
+    // The light of a signal-to-noise ratio over that of 12.
+    const auto deviationAt = [&](double ratio) {
+      return deviationOf(os1.model, 0.1 * ratio / 12.0, 1.0, 40.0);
+    };
+    EXPECT_NEAR(deviationAt(12.0), 0.10, 1e-12);
+    EXPECT_NEAR(deviationAt(100.0), 0.03, 0.005);
+    EXPECT_NEAR(deviationAt(600.0), 0.015, 1e-12);
+  }
+  EXPECT_NEAR(degrees(load("os1_128").model.shape.divergence), 0.18, 1e-3);
+  EXPECT_NEAR(degrees(load("os1_64").model.shape.divergence), 0.13, 1e-3);
+  const Lidar vlp16 = load("vlp16");
+  EXPECT_EQ(vlp16.beams.range_max, 100.0);
+  EXPECT_EQ(vlp16.model.shape.divergence, 0.003);
+  EXPECT_EQ(vlp16.model.shape.separation, 1.0);
+  EXPECT_GT(vlp16.model.shape.samples, 1);  // otherwise both of the above would have no effect
+  EXPECT_EQ(deviationOf(vlp16.model, 0.1, 1.0, 50.0), 0.03);
+  const Lidar plane = load("utm30lx");
+  EXPECT_EQ(plane.beams.range_max, 30.0);
+  EXPECT_LE(deviationOf(plane.model, 0.1, 1.0, 10.0), 0.010 + 1e-12);
+  EXPECT_LE(deviationOf(plane.model, 0.1, 1.0, 30.0), 0.030);
+}
+
+TEST(Lidar, WeakNoiseNeedsADetectionRange) {
+  Lidar lidar;
+  lidar.model.noise_weak = 0.1;
+  Faults faults;
+  check(lidar, "~", faults);
+  EXPECT_EQ(faults.text(), "~noise_weak = 0.100000 m needs a detection_range above 0 m");
+}
+
 TEST(Lidar, RaysStandWhereTheyAreAskedFor) {
   Beams beams;
   beams.rings = 3;

@@ -33,6 +33,24 @@ std::string faultsOf(const std::string& text) {
   return "";
 }
 
+// N11
+TEST(ReadWind, ACurrentIsABreezeWithTheDefaultsOfWater) {
+  const std::string begin = "wind: {primitives: [{name: tide, kind: ";
+  const Primitive water = read(begin + "current}]}").sources.at(0).primitive;
+  EXPECT_EQ(water.kind, Kind::BREEZE);
+  EXPECT_EQ(water.name, "tide");
+  EXPECT_EQ(water.velocity, Vec3(0.3, 0.0, 0.0));
+  EXPECT_EQ(water.turbulence, 0.1);
+  EXPECT_EQ(water.length_scale, 3.0);
+  const std::string keys = ", velocity: [0.1, 0.2, 0], turbulence: 0.5, length_scale: 4}]}";
+  const Field one({read(begin + "current" + keys).sources[0].primitive});
+  const Field other({read(begin + "breeze" + keys).sources[0].primitive});
+  EXPECT_EQ(one.hash(), other.hash());
+  EXPECT_NE(faultsOf(begin + "current, radius: 3}]}").find("radius is not a known key"),
+            std::string::npos);
+  EXPECT_NE(faultsOf(begin + "stream}]}").find("gauss_markov, current"), std::string::npos);
+}
+
 TEST(ReadWind, TakesEveryKey) {
   const Read wind = read(R"(
 wind:

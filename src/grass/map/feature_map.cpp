@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/config/base_file.h"
 #include "core/math/growth_stage.h"
 #include "grass/map/map_layers.h"
 #include "vegetation_sim/core/math/hash.h"
@@ -76,7 +77,11 @@ void takeSize(MapInput& input) {
 void readSpecies(YamlSection& yaml, const std::string& folder, MapInput& input) {
   for (YamlSection& entry : yaml.sections("species")) {
     SpeciesInput species;
-    if (!entry.has("name")) entry.fault("name", "is missing");
+    readBase(entry, folder + "/../grasses", [&](YamlSection& base) {
+      base.text("name", species.species.name);
+      describe(base, species.species);
+    });
+    if (!entry.has("name") && !entry.has("base")) entry.fault("name", "is missing");
     entry.text("name", species.species.name);
     describe(entry, species.species);
     double stage = GROWN;

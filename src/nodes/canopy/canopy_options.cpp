@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_options.h"
 
+#include "canopy/canopy_layout_reader.h"
+#include "nodes/canopy/canopy_cover.h"
+
 #include <map>
 
 #include "core/config/field_values.h"
@@ -100,6 +103,7 @@ void describe(FieldVisitor& v, CanopyOptions& o) {
   v.integer("marker_points", o.marker_points, "", {600, 3000000});
   v.number("tolerance", o.tolerance, "pixel", {0.01, 1000.0});
   v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
+  v.number("cover_resolution", o.cover_resolution, "m", {0.02, 100.0});
 }
 
 CanopyScene loadCanopyScene(const std::string& name) {
@@ -110,7 +114,8 @@ CanopyScene loadCanopyScene(const std::string& name) {
   if (file.has("canopy")) {
     YamlSection section = file.section("canopy");
     out.cutters = readCutters(section);
-    out.layout = canopy::readLayout(std::move(section), *out.terrain, out.seed, file.faults());
+    out.layout = canopy::readLayout(std::move(section), file.folder(), *out.terrain, out.seed,
+                                    file.faults());
     Faults forms;
     loadForms(out.layout, file.folder(), forms);
     if (forms.empty() && file.faults().empty()) canopy::check(out.layout, forms);
@@ -143,6 +148,9 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   describe(parameters, tuning);
   layout.motion = withTuning(layout.motion, tuning);
   if (parameters.faults().empty()) canopy::check(layout, parameters.faults());
+  if (parameters.faults().empty())
+    CanopyCover::check(layout, out.cover_resolution, private_handle.getNamespace() + "/",
+                       parameters.faults());
   parameters.finish();
   out.state_rate = layout.motion.rate;
   return out;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/model/detection.h"
 
+#include <limits>
+
 namespace vegetation_sim::scan {
 
 void describe(FieldVisitor& v, Detection& d) {
@@ -9,12 +11,15 @@ void describe(FieldVisitor& v, Detection& d) {
   v.number("detection_range", d.detection_range, "m", {0.0, 1000.0});
 }
 
+double lackOfLight(const Detection& d, double signal, double transmission, double range) {
+  const double light = signal * transmission * d.detection_range * d.detection_range;
+  return light > 0.0 ? REFERENCE * range * range / light : std::numeric_limits<double>::infinity();
+}
+
 double detectionProbability(const Detection& d, double signal, double transmission, double range) {
   double share = transmission;
   if (d.detection_range > 0.0) {
-    const double light = signal * transmission * d.detection_range * d.detection_range;
-    if (!(light > 0.0)) return 0.0;
-    const double lack = REFERENCE * range * range / light;
+    const double lack = lackOfLight(d, signal, transmission, range);
     share = 1.0 / (1.0 + lack * lack * lack * lack);
   }
   return (1.0 - d.dropout) * share;

@@ -18,6 +18,10 @@ void describe(FieldVisitor& visitor, Detection& detection);
 /// Reflectance of the dark targets of data sheets.
 constexpr double REFERENCE = 0.1;
 
+/// Returns the received light of the dark target at the detection range over that of an echo;
+/// infinite without light. Requires a detection range. Parameters as below.
+double lackOfLight(const Detection& detection, double signal, double transmission, double range);
+
 /// Returns the probability that an echo is detected. With a detection range it is s^4 / (1 + s^4),
 /// with the received light over that of the dark target, s = signal transmission / REFERENCE
 /// (detection range / range)^2; otherwise it is the transmission; times 1 - dropout in both cases.

@@ -54,7 +54,7 @@ bool Receiver::detect(const std::vector<Echo>& echoes, const RayRandom* random,
     const double chance =
         detectionProbability(model_.detection, echo.signal, transmission, echo.distance);
     if (chance < 1.0 && !(random->detection(number) < chance)) continue;
-    const double deviation = model_.noise + model_.noise_proportional * echo.distance;
+    const double deviation = deviationOf(model_, echo.signal, transmission, echo.distance);
     const double error = deviation > 0.0 ? deviation * random->unitNoise(number) : 0.0;
     const double range = echo.distance + error;
     if (echo.distance < range_min_ || range < range_min_)

@@ -103,6 +103,26 @@ TEST(Breaking, WoodWithoutAStrengthNeverBreaks) {
   EXPECT_EQ(beam.rig.forest.grabs().size(), 1u);
 }
 
+// As they are in every shipped scenario.
+TEST(Breaking, BranchesOfShippedTreesBreakWhenPulled) {
+  for (const std::string& name : speciesNames()) {
+    Layout layout = gridLayout(1, 12.0);
+    layout.species = {
+        loadSpecies(std::string(PACKAGE_FOLDER) + "/config/species/" + name + ".yaml")};
+    PhysicsRig rig(layout);
+    rig.run(1.0);
+    EXPECT_TRUE(rig.forest.broken().empty()) << name;
+    Grab grab = rig.grabOf(static_cast<int>(rig.branches().size()) - 1);
+    grab.stiffness = 1e5;
+    grab.damping = 500.0;
+    grab.force_limit = 1e5;
+    grab.target += Vec3(1.0, 0.5, 0.0);
+    rig.forest.addGrab(grab);
+    rig.run(1.0);
+    EXPECT_FALSE(rig.forest.broken().empty()) << name;
+  }
+}
+
 // A grab reports its force until the tick of the break, and then ends with the reason.
 TEST(Breaking, GrabOfABranchThatBreaksEndsWithItsForceAndTheReason) {
   Cantilever beam(40.0);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "package_folder.h"
 #include "vegetation_sim/grass/map/feature_map.h"
 
 namespace vegetation_sim::grass {
@@ -35,6 +36,25 @@ TEST(GrassSpecies, StageIsAKeyOfTheMap) {
   const MapInput input = readMapInput(section, "");
   EXPECT_EQ(faults.text(), "");
   EXPECT_DOUBLE_EQ(input.species.at(0).species.height, 2.0 * 0.525);
+}
+
+// N11: crops are described once, in config/grasses.
+TEST(GrassSpecies, TakesTheValuesOfItsBase) {
+  const auto inputOf = [](const std::string& entry, Faults& faults) {
+    YamlSection section(parseYaml("{species: [" + entry + "]}", "map"), "map", faults);
+    return readMapInput(section, PACKAGE_FOLDER "/config/scenarios");
+  };
+  Faults none;
+  const MapInput input = inputOf("{base: wheat, lean: 0.3}", none);
+  EXPECT_EQ(none.text(), "");
+  const Species& wheat = input.species.at(0).species;
+  EXPECT_EQ(wheat.name, "wheat");
+  EXPECT_EQ(wheat.width, 0.009);
+  EXPECT_EQ(wheat.lean, 0.3);
+  Faults unknown;
+  inputOf("{base: barley}", unknown);
+  EXPECT_NE(unknown.text().find("species[0]: base = 'barley': "), std::string::npos)
+      << unknown.text();
 }
 
 }  // namespace

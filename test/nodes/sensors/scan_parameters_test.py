@@ -19,7 +19,7 @@ NUMBERS = {
     'tolerance': (' m', 0.0001, 10), 'noise_proportional': ('', 0, 0.1), 'dropout': ('', 0, 1),
     'detection_range': (' m', 0, 1000), 'fog_visibility': (' m', 0, 100000),
     'rain_rate': (' mm/h', 0, 200), 'rain_returns': ('', 0, 10), 'divergence': (' rad', 0, 0.1),
-    'return_separation': (' m', 0, 10), 'sky_range': (' m', 1, 500),
+    'return_separation': (' m', 0, 10), 'noise_weak': (' m', 0, 1), 'sky_range': (' m', 1, 500),
 }
 WHOLE_NUMBERS = {
     'rate': (' Hz', 1, 100), 'branch_budget': ('', 1000, 20000000), 'threads': ('', 1, 64), 'leaf_budget': ('', 1000, 3000000),
@@ -50,6 +50,8 @@ class ScanParameters(Ranges, RefusingNode):
         self.assertIn("~returns = 'first' is none of strongest, last, both", refusal)
         self.assertIn("~motion = 'smooth' is none of none, deskewed, raw", refusal)
         self.assertIn('~samples = 5 is none of 1, 7, 19, 37', refusal)
+        self.assertIn('~noise_weak = 0.100000 m needs a detection_range above 0 m',
+                      self.refusal({'noise_weak': 0.1}))
 
     def test_bad_frames_of_the_sky_are_rejected(self):
         for frames, words in (

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "vegetation_sim/core/math/math.h"
@@ -82,6 +83,27 @@ TEST(Receiver, NoiseGrowsInProportionToTheRange) {
     EXPECT_NEAR(got.mean, range, 4.0 * deviation / std::sqrt(N));
     EXPECT_NEAR(got.deviation, deviation, 4.0 * deviation / std::sqrt(2.0 * N));
   }
+}
+
+// s is the light over that of a target of reflectance 0.1 at the detection range.
+TEST(Receiver, NoiseOfWeakEchoesFallsWithTheRootOfTheLight) {
+  SensorModel model = exact();
+  model.noise = 0.01;
+  model.noise_weak = 0.1;
+  model.detection.detection_range = 40.0;
+  for (const auto& [range, signal, deviation] : {std::array<double, 3>{20.0, 0.1, 0.05},
+                                                 {20.0, 0.4, 0.025},
+                                                 {40.0, 0.4, 0.05},
+                                                 {10.0, 0.8, 0.01}}) {
+    const Statistics got = measure(model, {echoAt(range, signal)});
+    EXPECT_NEAR(got.deviation, deviation, 4.0 * deviation / std::sqrt(2.0 * N)) << range;
+  }
+  const Statistics fog = [&] {
+    SensorModel foggy = model;
+    foggy.weather.fog_visibility = 100.0;
+    return measure(foggy, {echoAt(20.0, 0.4)});
+  }();
+  EXPECT_NEAR(fog.deviation, 0.025 * std::exp(3.912 / 100.0 * 20.0), 0.003);
 }
 
 TEST(Receiver, DropoutLosesItsShare) {

@@ -124,6 +124,18 @@ TEST(Species, HashSeesAStrengthAboveZero) {
   EXPECT_NE(faultOf("{name: a, strength: .nan}").find("strength"), std::string::npos);
 }
 
+// USDA Forest Service, Wood Handbook, FPL-GTR-190 (2010), table 5-3a: modulus of rupture of green
+// wood, 33 to 57 MPa.
+TEST(Species, ShippedTreesBreakAtTheStrengthOfGreenWood) {
+  const auto strengthOf = [](const std::string& name) {
+    return loadSpecies(std::string(PACKAGE_FOLDER) + "/config/species/" + name + ".yaml").strength;
+  };
+  EXPECT_EQ(strengthOf("oak"), 5.7e7);
+  EXPECT_EQ(strengthOf("birch"), 4.4e7);
+  EXPECT_EQ(strengthOf("pine"), 4.0e7);
+  EXPECT_EQ(strengthOf("willow"), 3.3e7);
+}
+
 // Trees in air keep the hash that they had before there were other fluids.
 TEST(Species, HashSeesAFluidOtherThanAir) {
   Species species = shippedSpecies("oak");
