@@ -54,7 +54,7 @@ TEST(TreeRegions, NearRegionsAreVisitedAndFarOnesPassedOverTogether) {
       EXPECT_TRUE(visited.count(region.first)) << region.first;
     }
     EXPECT_LE(visited.size(), 3 * near + 8);
-    EXPECT_LE(tests, static_cast<int>(COUNT / 50)) << "of " << COUNT;
+    EXPECT_LE(tests, static_cast<int>(COUNT / 20)) << "of " << COUNT;
   }
 }
 
