@@ -249,10 +249,10 @@ GrabManager::Request& GrabManager::find(std::uint32_t id) {
   std::string known;
   for (const auto& entry : requests_)
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
-  throw InvalidInput(
-      "id = " + std::to_string(id) +
-          (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known),
-      FaultCode::UNKNOWN);
+  const std::string end = history_.describeEnd(id);
+  throw InvalidInput("id = " + std::to_string(id) + (end.empty() ? " is unknown" : end) +
+                         (known.empty() ? "; nothing is held" : "; held are " + known),
+                     FaultCode::UNKNOWN);
 }
 
 const forest::Grab& GrabManager::grabOf(std::uint32_t id) const {

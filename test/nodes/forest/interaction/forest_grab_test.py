@@ -166,7 +166,8 @@ class ForestGrab(unittest.TestCase):
         self.assertEqual(len(self.hands.tree(TREE).grabs), 1)
         self.hands.run(RATE)
         self.assertEqual(self.hands.tree(TREE).grabs, [])
-        self.assertIn('is unknown; nothing is held', self.hands.move_grab(id=answer.id).message)
+        self.assertIn('id = %d has ended: its lease expired; nothing is held' % answer.id,
+                      self.hands.move_grab(id=answer.id).message)
 
     def test_a_killed_holder_loses_its_grab(self):
         before = self.hands.diagnostics()['Grabs ended by their lease']
