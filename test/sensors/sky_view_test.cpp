@@ -48,7 +48,8 @@ double differenceOfBins(const SkyTransmittance& a, const SkyTransmittance& b) {
   return std::sqrt(sum / SKY_BINS);
 }
 
-void expectAsCounted(const Scene& scene, const Vec3& place, const char* name) {
+/// @param of_bins limit of differenceOfBins().
+void expectAsCounted(const Scene& scene, const Vec3& place, const char* name, double of_bins) {
   const SkyTransmittance sky = viewSky(scene, place, SKY_REACH, one_thread);
   const SkyTransmittance counted = countOpenRays(scene, place, SKY_REACH, 2000, Random(7));
   std::printf("%s: open share %.4f, counted %.4f; sky view factor %.4f, counted %.4f; bins %.4f\n",
@@ -56,8 +57,9 @@ void expectAsCounted(const Scene& scene, const Vec3& place, const char* name) {
               counted.sky_view_factor, differenceOfBins(sky, counted));
   EXPECT_NEAR(sky.open_share, counted.open_share, 0.02) << name;
   EXPECT_NEAR(sky.sky_view_factor, counted.sky_view_factor, 0.02) << name;
-  // One hit of a cell stands for all rays that enter it there, so that bins are counted worse.
-  EXPECT_LT(differenceOfBins(sky, counted), 0.06) << name;
+  // One hit of a cell stands for all rays that enter it there, and a bin has 32 rays, so that bins
+  // differ more than totals.
+  EXPECT_LT(differenceOfBins(sky, counted), of_bins) << name;
 }
 
 TEST(SkyView, OfNothingIsOpen) {
@@ -70,10 +72,10 @@ TEST(SkyView, OfNothingIsOpen) {
 // N1: under an oak and in a clearing, at rest and in wind.
 TEST(SkyView, IsWhatCountedRaysFind) {
   const Scene still = oaks(wind::Field(), 0.0), windy = oaks(breezeOf(Vec3(9, 2, 0)), 3.0);
-  expectAsCounted(still, UNDER_AN_OAK, "under an oak");
-  expectAsCounted(still, IN_THE_CLEARING, "in a clearing");
-  expectAsCounted(windy, UNDER_AN_OAK, "under an oak in wind");
-  expectAsCounted(windy, IN_THE_CLEARING, "in a clearing in wind");
+  expectAsCounted(still, UNDER_AN_OAK, "under an oak", 0.025);
+  expectAsCounted(still, IN_THE_CLEARING, "in a clearing", 0.025);
+  expectAsCounted(windy, UNDER_AN_OAK, "under an oak in wind", 0.025);
+  expectAsCounted(windy, IN_THE_CLEARING, "in a clearing in wind", 0.025);
   const auto at = [](const Scene& scene, const Vec3& place) {
     return viewSky(scene, place, SKY_REACH, one_thread);
   };
@@ -203,7 +205,7 @@ TEST(SkyView, PlantsOfACanopyBlock) {
   Scene scene;
   const Vec3 place(2.0, -2.4, 0.02);
   Grove(groveLayout()).show(scene.plants, one_thread);
-  expectAsCounted(scene, place, "under a crown");
+  expectAsCounted(scene, place, "under a crown", 0.045);
   EXPECT_LT(viewSky(scene, place, SKY_REACH, one_thread).open_share, 0.9);
 }
 

@@ -15,7 +15,6 @@ constexpr double BLADE_STEP = 0.05;       // longest part of a ray with one exti
 constexpr double STEEP = 0.9;             // vertical component from which a ray stays in a column
 constexpr double LONGEST_CROSSING = 3.3;  // of a ray that is not steep, in widths of the column
 constexpr double BLADE_STRETCH = 0.4;     // part of a ray with one bound [m]
-constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 
 }  // namespace
 
