@@ -5,11 +5,18 @@
 shards, walkers tread, and requests go through the wrong shard. Compares the sums of the hashes of
 the shards with the hashes of the single nodes, and prints a table.
 
+Then the link of shard 1 is down for 5 s of wall time while the clock goes on, without treads and
+requests.
+
 usage: drive_hosts.py TICKS SHARDS"""
+import subprocess
 import sys
+import threading
 import time
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from vegetation_sim.srv import GetTree
 
 from forest_rig import RATE, time_of
 from scan_rig import cloud_of
@@ -17,6 +24,57 @@ from sharded_world import FIRST, Requests, World
 from waiting import wait_for
 
 WARM_UP = 1.0  # clouds are compared after this time [s]
+CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
+
+
+class CutLink:
+    """The link of the host of shard 1 is down, and what is said about it."""
+
+    def __init__(self):
+        self.said = set()
+        rospy.Subscriber('/diagnostics', DiagnosticArray, self._on_diagnostics)
+        subprocess.check_call(['ip', 'link', 'set', 'link_2', 'down'])
+        self._asking = threading.Thread(target=self._ask)
+        self._asking.start()
+
+    def _on_diagnostics(self, message):
+        self.said |= {'%s: %s' % (s.name, s.message) for s in message.status if 'no message for 3 s' in s.message}
+
+    def _ask(self):
+        get_tree = rospy.ServiceProxy('/forest_0/get_tree', GetTree)
+        self.said |= {a.message for a in [get_tree(tree=i) for i in range(16)] if not a.success}
+
+    def join(self):
+        subprocess.check_call(['ip', 'link', 'set', 'link_2', 'up'])
+        self._asking.join()
+
+
+def pass_partition(world, requests):
+    """Returns the number of ticks without the link, and the time until the states of all of them have
+    come after it is up again [s]."""
+    for _ in range(CALM):  # treads and requests with stamps ahead are done
+        world.show_frames()
+        world.run_tick()
+    link, begin, first = CutLink(), time.monotonic(), world.tick
+    world.alive -= 1
+    while time.monotonic() < begin + CUT:
+        world.show_frames()
+        world.run_tick()
+        time.sleep(1.0 / RATE)
+    link.join()
+    ticks = world.tick - first
+    world.alive += 1
+    begin = time.monotonic()
+    world.wait_for_states()
+    seconds = time.monotonic() - begin
+    for age in range(AFTER):
+        world.show_frames()
+        world.walk()
+        requests.act(age)
+        world.run_tick()
+    for words in sorted(link.said):
+        print('while the link is down: ' + words)
+    return ticks, seconds
 
 
 def main():
@@ -37,21 +95,21 @@ def main():
         requests.act(age)
         world.run_tick()
     seconds = time.monotonic() - begin
+    bytes_ = {kind: [states.bytes * RATE / (ticks + 5.0) for states in pair] for kind, pair in world.states.items()}
+    last = world.stamp()
+    print('%d ticks without the link; %.1f s after it is up all states have come' % pass_partition(world, requests))
     print('%-10s %8s %8s %10s %14s %14s' % ('state', 'ticks', 'equal', 'hashes', 'shards [B/s]', 'one node [B/s]'))
     good = True
-    for kind, (divided, whole) in world.states.items():
+    for kind in world.states:
         both, equal, hashes = world.compare(kind)
-        good = good and len(both) >= ticks and equal == both
-        rate = RATE / (ticks + 5.0)
-        print('%-10s %8d %8d %10d %14.0f %14.0f' % (
-            kind, len(both), len(equal), hashes, divided.bytes * rate,
-            whole.bytes * rate))
+        good = good and len(both) >= ticks + CALM + AFTER and equal == both
+        print('%-10s %8d %8d %10d %14.0f %14.0f' % (kind, len(both), len(equal), hashes, *bytes_[kind]))
         if equal != both:
             print('first difference %d ticks after the start' % round(
                 (min(set(both) - set(equal)) - time_of(FIRST)).to_sec() * RATE))
-    # The first sweeps come before all shards know where the lidars are.
+    # The first sweeps come before all shards know where the lidars are. Without a link trees stand still.
     begun = time_of(FIRST) + rospy.Duration(WARM_UP)
-    common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if s > begun)
+    common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if begun < s < last)
     alike = [s for s in common if cloud_of(world.clouds[0][s]).tobytes() == cloud_of(world.clouds[1][s]).tobytes()]
     print('%-10s %8d %8d' % ('clouds', len(common), len(alike)))
     print('%d requests through other shards; %.1f ms per tick' % (requests.sent, 1000.0 * seconds / ticks))

@@ -86,6 +86,10 @@ class World:
     def run_tick(self):
         self.clock.set(self.stamp(1) + rospy.Duration(0.5 / RATE))
         self.tick += 1
+        self.wait_for_states()
+
+    def wait_for_states(self):
+        """Waits for the states of the last tick, of all shards that are alive."""
         for divided, whole in self.states.values():
             divided.wait(self.stamp(), self.alive)
             whole.wait(self.stamp())
