@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The snapshot of a crowd as bytes.
+// The snapshot of a crowd, and people, as bytes.
 #include "core/archive/archive.h"
-#include "crowd/agents/crowd.h"
+#include "crowd/agents/crowd_shard.h"
 
 namespace vegetation_sim::crowd {
 namespace {
@@ -98,6 +98,21 @@ void archive(Archive& a, CrowdSnapshot& snapshot) {
 }
 
 }  // namespace
+
+std::string archivePeople(std::vector<Walker> people) {
+  Archive a;
+  a.list("people", people, MOST_WALKERS, WALKER_BYTES,
+         [&a](Walker& walker) { archive(a, walker); });
+  return a.bytes();
+}
+
+std::vector<Walker> readPeople(std::string bytes) {
+  Archive a = Archive::reading(std::move(bytes), 0);
+  std::vector<Walker> out;
+  a.list("people", out, MOST_WALKERS, WALKER_BYTES, [&a](Walker& walker) { archive(a, walker); });
+  a.finish();
+  return out;
+}
 
 std::string Crowd::archived() const {
   Archive a;

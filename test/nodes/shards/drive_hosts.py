@@ -55,12 +55,13 @@ def pass_partition(world, requests):
     for _ in range(CALM):  # treads and requests with stamps ahead are done
         world.show_frames()
         world.run_tick()
-    link, begin, first = CutLink(), time.monotonic(), world.tick
+    link, pause = CutLink(), threading.Event()
+    begin, first = time.monotonic(), world.tick
     world.alive -= 1
     while time.monotonic() < begin + CUT:
         world.show_frames()
         world.run_tick()
-        time.sleep(1.0 / RATE)
+        pause.wait(1.0 / RATE)
     link.join()
     ticks = world.tick - first
     world.alive += 1
