@@ -8,7 +8,7 @@
 namespace vegetation_sim::crowd {
 namespace {
 
-constexpr double MOST_RADIUS = 1.0;  // radius of a person [m]
+constexpr double MOST_RADIUS = 1.0;  // of a person [m]
 
 }  // namespace
 
@@ -20,23 +20,55 @@ CrowdBorder CrowdShard::endTick() {
     if (owners_.isNearOthers(walker.position, margin)) out.near.push_back(walker);
   left_ = crowd_.takeOutside(owners_);
   for (const Walker& walker : left_)
-    out.handed.push_back({owners_.ownerAt(walker.position), walker});
+    handed_.push_back({owners_.ownerAt(walker.position), out.stamp, walker});
+  out.handed = handed_;
+  for (const auto& [shard, border] : borders_) out.heard[shard] = border.stamp;
   return out;
 }
 
-void CrowdShard::beginTick(const std::vector<CrowdBorder>& others) {
-  std::vector<Walker> seen = left_;
-  for (const CrowdBorder& border : others) {
-    for (const CrowdBorder::Handed& handed : border.handed)
-      if (handed.to == owners_.shard().index && !crowd_.find(handed.walker.id))
-        crowd_.takeIn(handed.walker);
-    seen.insert(seen.end(), border.near.begin(), border.near.end());
+void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
+  const Shard& own = owners_.shard();
+  if (shard >= own.count || shard == own.index)
+    throw InvalidInput("border: shard = " + std::to_string(shard) + " is no other shard of the " +
+                       std::to_string(own.count) + " than this one, " + std::to_string(own.index));
+  const auto last = borders_.find(shard);
+  if (last != borders_.end() && border.stamp <= last->second.stamp) return;
+  for (const CrowdBorder::Handed& handed : border.handed) {
+    const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
+    if (handed.to == own.index && is_new && !crowd_.find(handed.walker.id))
+      crowd_.takeIn(handed.walker);
   }
+  const auto found = border.heard.find(own.index);
+  if (found != border.heard.end())
+    handed_.erase(std::remove_if(handed_.begin(), handed_.end(),
+                                 [&](const CrowdBorder::Handed& handed) {
+                                   return handed.to == shard && handed.stamp <= found->second;
+                                 }),
+                  handed_.end());
+  borders_[shard] = std::move(border);
+}
+
+void CrowdShard::beginTick() {
+  std::vector<Walker> seen = left_;
+  for (const auto& [shard, border] : borders_)
+    seen.insert(seen.end(), border.near.begin(), border.near.end());
   seen.erase(std::remove_if(seen.begin(), seen.end(),
                             [this](const Walker& walker) { return crowd_.find(walker.id); }),
              seen.end());
-  std::sort(seen.begin(), seen.end(), [](const Walker& a, const Walker& b) { return a.id < b.id; });
+  // Of a person in two borders the first counts: those who have just left, then by shard.
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const Walker& a, const Walker& b) { return a.id < b.id; });
+  seen.erase(std::unique(seen.begin(), seen.end(),
+                         [](const Walker& a, const Walker& b) { return a.id == b.id; }),
+             seen.end());
   crowd_.setOthers(std::move(seen));
+}
+
+void CrowdShard::clear() {
+  borders_.clear();
+  handed_.clear();
+  left_.clear();
+  crowd_.setOthers({});
 }
 
 }  // namespace vegetation_sim::crowd

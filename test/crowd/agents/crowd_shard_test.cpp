@@ -37,9 +37,10 @@ class ShardedCrowd {
   }
   void advance(Nanoseconds stamp) {
     for (std::size_t i = 0; i < shards_.size(); ++i) {
-      std::vector<CrowdBorder> others = borders_;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      shards_[i]->beginTick(others);
+      for (std::size_t j = 0; j < shards_.size(); ++j)
+        if (j != i)
+          shards_[i]->hear(static_cast<std::uint32_t>(j), readBorder(archiveBorder(borders_[j])));
+      shards_[i]->beginTick();
     }
     for (std::size_t i = 0; i < shards_.size(); ++i) {
       crowds_[i]->advance(stamp);
@@ -56,7 +57,8 @@ class ShardedCrowd {
     std::vector<Walker> out;
     for (std::size_t i = 0; i < crowds_.size(); ++i) {
       out.insert(out.end(), crowds_[i]->walkers().begin(), crowds_[i]->walkers().end());
-      for (const CrowdBorder::Handed& handed : borders_[i].handed) out.push_back(handed.walker);
+      for (const CrowdBorder::Handed& handed : borders_[i].handed)
+        if (handed.stamp == borders_[i].stamp) out.push_back(handed.walker);
     }
     std::sort(out.begin(), out.end(), [](const Walker& a, const Walker& b) { return a.id < b.id; });
     return out;
@@ -143,14 +145,48 @@ TEST(CrowdShard, WaysAroundWallsAreAsGood) {
   EXPECT_NEAR(way[1] / way[0], 1.0, 0.05);
 }
 
-TEST(CrowdShard, PeopleComeBackFromBytes) {
-  Crowd whole = wanderers(20, 10.0, 1);
-  run(whole, 3.0, PERIOD, [](const Crowd&) {});
-  Crowd other(1, CrowdSettings(), whole.snapshot().area, flatGround());
-  for (const Walker& walker : readPeople(archivePeople(whole.walkers()))) other.takeIn(walker);
-  EXPECT_EQ(other.snapshot().walkersHash(), whole.snapshot().walkersHash());
-  EXPECT_EQ(errorOf([&] { other.takeIn(whole.walkers().front()); }), "walker 0 exists already");
-  EXPECT_NE(errorOf([] { readPeople("no people"); }), "");
+// A shard that is silent misses nobody: those who come to it wait.
+TEST(CrowdShard, PeopleWaitForASilentShard) {
+  Crowd whole(1, CrowdSettings(), {0.0, 20.0, 0.0, 20.0}, flatGround());
+  const CrowdOwners owners(whole.snapshot().area, {0, 2});
+  const Point from{5.0, 5.0}, to{15.0, 15.0};
+  const std::uint32_t first = owners.ownerAt(from), second = owners.ownerAt(to);
+  ASSERT_NE(first, second);
+  spawnAt(whole, from, to);
+  const auto here = copyOf(whole), there = copyOf(whole);
+  there->takeOutside(CrowdOwners(whole.snapshot().area, {second, 2}));
+  CrowdShard sender(*here, {first, 2}), receiver(*there, {second, 2});
+  CrowdBorder border = sender.endTick();
+  for (Nanoseconds tick = 1; sender.waiting() == 0 && tick < 600; ++tick) {
+    sender.beginTick();
+    here->advance(tick * fromSeconds(PERIOD));
+    border = sender.endTick();
+  }
+  ASSERT_EQ(sender.waiting(), 1u);
+  here->advance(border.stamp + fromSeconds(PERIOD));
+  border = sender.endTick();
+  EXPECT_EQ(here->walkers().size(), 0u);
+  ASSERT_EQ(border.handed.size(), 1u);
+  receiver.hear(first, border);
+  receiver.hear(first, border);
+  ASSERT_EQ(there->walkers().size(), 1u);
+  EXPECT_EQ(there->walkers().front().id, 0u);
+  there->advance(border.stamp);
+  const CrowdBorder answer = receiver.endTick();
+  // The same from the receiver's saved state.
+  Archive saved;
+  receiver.archive(saved);
+  CrowdShard again(*there, {second, 2});
+  Archive read = Archive::reading(saved.bytes());
+  again.archive(read);
+  read.finish();
+  EXPECT_EQ(archiveBorder(again.endTick()), archiveBorder(answer));
+  sender.hear(second, answer);
+  EXPECT_EQ(sender.waiting(), 0u);
+  EXPECT_EQ(errorOf([&] { sender.hear(first, answer); }),
+            "border: shard = " + std::to_string(first) +
+                " is no other shard of the 2 than this one, " + std::to_string(first));
+  EXPECT_NE(errorOf([] { readBorder("no border"); }), "");
 }
 
 }  // namespace
