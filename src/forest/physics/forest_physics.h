@@ -187,7 +187,7 @@ class ForestPhysics {
   std::vector<Reaction> reactions_;
   std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};
-  Nanoseconds next_review_{0};  // of all trees or, by tree, of those that bodies come near
+  Nanoseconds next_review_{0};  // of all trees, unless each has its own
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
   std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
   std::vector<std::uint32_t> near_;           // trees that bodies may touch in this tick, rising
