@@ -153,7 +153,10 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     loaded[point.tree].push_back(point.branch);
   }
   for (const Push& push : pushes_)
-    if (push.from < to && push.until > from) loaded[push.point.tree].push_back(push.point.branch);
+    if (push.from < to && push.until > from) {
+      loaded[push.point.tree].push_back(push.point.branch);
+      if (push.whole_tree) appendWholeTree(context, push.point.tree, loaded[push.point.tree]);
+    }
   for (auto& [tree, subtree] : subtrees_)
     if (!loaded.count(tree)) subtree.releaseJoints();
   for (auto it = refused_.begin(); it != refused_.end();)
@@ -169,6 +172,14 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     for (const int branch : branches) missing = missing || !subtree.holds(branch);
     if (subtree.isInReview() || missing) promoteInTree(context, tree, subtree, branches, from);
   }
+}
+
+// Adds all branches of a tree that have not come off.
+void ForestPhysics::appendWholeTree(const StepContext& context, std::uint32_t tree,
+                                    std::vector<int>& loaded) {
+  const auto& branches = findOrAddSubtree(context, tree).tree().skeleton.branches;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    if (!branches[i].broken) loaded.push_back(static_cast<int>(i));
 }
 
 // Makes the branches physical that the loads of a tree need.

@@ -99,6 +99,8 @@ class ForestPhysics {
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
   /// @throws InvalidInput if a branch that `what` loads could not be physical now.
   void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
+  /// @throws InvalidInput if not all branches of a tree could be physical now.
+  void checkRoomForTree(const std::string& what, const Tree& tree, std::uint32_t id) const;
   /// Removes grabs, pushes, bodies and all physical subtrees, and makes broken trees whole; keeps
   /// the settings.
   void clear();
@@ -143,6 +145,7 @@ class ForestPhysics {
   void archiveContacts(Archive& a, const Layout& layout);
   void checkRead(const Layout& layout, const GrowTree& grow) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
+  void appendWholeTree(const StepContext& context, std::uint32_t tree, std::vector<int>& loaded);
   void requestReview(const StepContext& context, std::uint32_t tree);
   void beginReviews(const StepContext& context, Nanoseconds start);
   void endLeases(Nanoseconds stamp);

@@ -323,6 +323,7 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   BranchForce asked;
   asked.duration = request.duration;
   asked.force = request.force.vector;
+  asked.whole_tree = request.whole_tree;
   event.push = fromMsg(asked);
   event.push.point = place.at;
   const std::string& frame = request.force.header.frame_id;
@@ -333,6 +334,8 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   }
   forest::checkPush(node_.forest.layout(), *grown(place.at.tree), event.push);
   checkRoom("push", place, request.stamp);
+  if (request.whole_tree)
+    node_.forest.snapshot().physics.checkRoomForTree("push", *grown(place.at.tree), place.at.tree);
   enqueue(event);
   response.tree = place.at.tree;
   response.branch = static_cast<std::uint32_t>(place.at.branch);

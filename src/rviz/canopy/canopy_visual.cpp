@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "rviz/ground/shadow_painter.h"
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/foliage_texture.h"
 
