@@ -14,11 +14,11 @@ constexpr double MOST_RADIUS = 1.0;  // of a person [m]
 
 CrowdBorder CrowdShard::endTick() {
   CrowdBorder out;
-  out.stamp = crowd_.snapshot().stamp;
-  const double margin = crowd_.snapshot().settings.sensor_range + 2.0 * MOST_RADIUS;
-  for (const Walker& walker : crowd_.walkers())
+  out.stamp = crowd_->snapshot().stamp;
+  const double margin = crowd_->snapshot().settings.sensor_range + 2.0 * MOST_RADIUS;
+  for (const Walker& walker : crowd_->walkers())
     if (owners_.isNearOthers(walker.position, margin)) out.near.push_back(walker);
-  left_ = crowd_.takeOutside(owners_);
+  left_ = crowd_->takeOutside(owners_);
   for (const Walker& walker : left_)
     handed_.push_back({owners_.ownerAt(walker.position), out.stamp, walker});
   out.handed = handed_;
@@ -35,8 +35,8 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
   if (last != borders_.end() && border.stamp <= last->second.stamp) return;
   for (const CrowdBorder::Handed& handed : border.handed) {
     const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
-    if (handed.to == own.index && is_new && !crowd_.find(handed.walker.id))
-      crowd_.takeIn(handed.walker);
+    if (handed.to == own.index && is_new && !crowd_->find(handed.walker.id))
+      crowd_->takeIn(handed.walker);
   }
   const auto found = border.heard.find(own.index);
   if (found != border.heard.end())
@@ -53,7 +53,7 @@ void CrowdShard::beginTick() {
   for (const auto& [shard, border] : borders_)
     seen.insert(seen.end(), border.near.begin(), border.near.end());
   seen.erase(std::remove_if(seen.begin(), seen.end(),
-                            [this](const Walker& walker) { return crowd_.find(walker.id); }),
+                            [this](const Walker& walker) { return crowd_->find(walker.id); }),
              seen.end());
   // Of a person in two borders the first counts: those who have just left, then by shard.
   std::stable_sort(seen.begin(), seen.end(),
@@ -61,14 +61,14 @@ void CrowdShard::beginTick() {
   seen.erase(std::unique(seen.begin(), seen.end(),
                          [](const Walker& a, const Walker& b) { return a.id == b.id; }),
              seen.end());
-  crowd_.setOthers(std::move(seen));
+  crowd_->setOthers(std::move(seen));
 }
 
 void CrowdShard::clear() {
   borders_.clear();
   handed_.clear();
   left_.clear();
-  crowd_.setOthers({});
+  crowd_->setOthers({});
 }
 
 }  // namespace vegetation_sim::crowd

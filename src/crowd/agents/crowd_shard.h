@@ -34,7 +34,7 @@ class CrowdShard {
  public:
   /// @param crowd must outlive it; holds the people of the region only.
   CrowdShard(Crowd& crowd, const Shard& shard)
-      : crowd_(crowd), owners_(crowd.snapshot().area, shard) {}
+      : crowd_(&crowd), owners_(crowd.snapshot().area, shard) {}
 
   const CrowdOwners& owners() const { return owners_; }
   /// Removes the people who have left the region, and returns what the others need. To be called
@@ -54,7 +54,7 @@ class CrowdShard {
   void archive(Archive& a);
 
  private:
-  Crowd& crowd_;
+  Crowd* crowd_;
   CrowdOwners owners_;
   std::map<std::uint32_t, CrowdBorder> borders_;  // of other shards, the newest
   std::vector<CrowdBorder::Handed> handed_;

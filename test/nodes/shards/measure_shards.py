@@ -20,6 +20,7 @@ from waiting import SimulatedClock, wait_for
 
 FIRST, WARM_UP, SIZE = 30000, 150, 200.0  # ticks; side of a tile [m]
 PLACES = 8  # viewers and sensors
+FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
 LISTENERS = {'display': ('/forest/view', '/grass/state', '/agents/view'),
              'lidar': ('/forest/state', '/grass/state', '/agents')}
 
@@ -78,7 +79,9 @@ def main():
               start_node('agent_crowd', '/agent_crowd', {}, scenario=scene, most_walkers=100000)]
     for index in range(shards):
         share = dict(scenario=scene, shard=dict(index=index, count=shards))
-        forests.append(start_node('forest_animator', '/forest_%d' % index, {}, **share))
+        # Shards have equal parts of the budgets of one node.
+        forests.append(start_node('forest_animator', '/forest_%d' % index, {}, frame_time=FRAME_TIME / shards,
+                                  modal_trees=MODAL_TREES // shards, **share))
         meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000, **share))
     counters = {topic: Counter(topic, {'/forest/state': ForestState, '/grass/state': GrassState}.get(topic))
                 for topics in LISTENERS.values() for topic in topics}
