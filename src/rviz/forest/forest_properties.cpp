@@ -42,7 +42,7 @@ void ForestProperties::addLook(rviz::Display& display) {
                                    &display);
   flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
   moving_shadows_ = new rviz::BoolProperty(
-      "Moving Shadows", true, "Shadows on the ground follow the trees near the viewer.", &display,
+      "Moving Shadows", false, "Shadows on the ground follow the trees near the viewer.", &display,
       SLOT(updateGround()), &display);
   colours_ = new rviz::EnumProperty("Colours", "natural",
                                     "By state: branches are painted by their joint: red moves, "

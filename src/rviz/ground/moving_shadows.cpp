@@ -11,10 +11,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double RESELECT = 10.0;                // [m] way of the viewer to another selection
-constexpr double SMALL_PLOT = 100.0;             // [m]
-constexpr int SMALL_EDGE = 512, EDGE = 1024;     // [pixel] of a small and of another plot
-constexpr double LOWEST_SUN = 0.15, SWAY = 2.0;  // lower suns cast as long shadows; room [m]
+constexpr double RESELECT = 10.0;                   // [m] way of the viewer to another selection
+constexpr double SMALL_PLOT = 100.0;                // [m]
+constexpr int SMALL_EDGE = 512, LARGE_EDGE = 1024;  // [pixel] of a small and of another plot
+constexpr double LOWEST_SUN = 0.15, SWAY = 2.0;     // lower suns cast as long shadows; room [m]
 
 ShadowDrop dropInto(ShadowPainter& painter) {
   return [&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); };
@@ -35,7 +35,7 @@ MovingShadows::MovingShadows(const TreeSet& tree_set, const terrain::HeightMap& 
     : tree_set_(tree_set),
       to_sun_(to_sun),
       plot_(plotAround(tree_set.extent())),
-      edge_(plot_.edge > SMALL_PLOT ? EDGE : SMALL_EDGE),
+      edge_(plot_.edge > SMALL_PLOT ? LARGE_EDGE : SMALL_EDGE),
       rest_(plot_, edge_, wholePlot(edge_), terrain, to_sun),
       moved_(rest_),
       changed_(wholePlot(edge_)) {
@@ -81,11 +81,16 @@ void MovingShadows::follow(const Vec3& viewer) {
   near_.resize(count);
   dropNear(-1.0);
   painted_ = 0;
+  done_ = -1;
 }
 
 bool MovingShadows::paint(const forest::ForestReplica& replica, Nanoseconds stamp, double seconds) {
+  if (stamp == done_) return false;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  if (painted_ == 0) moved_.setDepths(rest_.depths());
+  if (painted_ == 0) {
+    moved_.setDepths(rest_.depths());
+    first_ = stamp;
+  }
   while (painted_ < near_.size()) {
     const DrawnTree& tree = *near_[painted_++];
     dropTree(tree, replica.pose(tree.tree(), tree.id(), stamp), tree_set_.hasLeaves(), 1.0,
@@ -93,6 +98,7 @@ bool MovingShadows::paint(const forest::ForestReplica& replica, Nanoseconds stam
     if (Clock::now() >= end && painted_ < near_.size()) return false;
   }
   painted_ = 0;
+  done_ = stamp == first_ ? stamp : -1;
   light_ = moved_.light();
   changed_ = unite(changed_, window_);
   return true;

@@ -24,7 +24,7 @@ class MovingShadows {
   /// Lets the trees nearest to the viewer move, once he has gone far.
   void follow(const Vec3& viewer);
   /// Paints trees as they are at `stamp` for about `seconds`, at least one. @return true when the
-  /// shadows of all are painted; the next call begins anew.
+  /// shadows of all have been painted; the next call begins anew, unless all are of this stamp.
   bool paint(const forest::ForestReplica& replica, Nanoseconds stamp, double seconds);
   /// Returns the pixels that have changed since the last call.
   Window takeChanged();
@@ -44,7 +44,8 @@ class MovingShadows {
   ShadowPainter rest_;   // of the trees that do not move
   ShadowPainter moved_;  // of all, while they are painted
   std::vector<const DrawnTree*> near_;
-  std::size_t painted_{0};  // of near_
+  std::size_t painted_{0};            // of near_
+  Nanoseconds first_{-1}, done_{-1};  // stamps of the first tree, and of all trees of light_ or -1
   Window window_, changed_;
   bool selected_{false};
   Vec3 selected_at_{Vec3::Zero()};

@@ -61,14 +61,14 @@ std::vector<float> ShadowPainter::light() const {
   return out;
 }
 
-void dropTree(const DrawnTree& tree, const std::vector<forest::Pose>& poses, bool leaves,
-              double depth, const ShadowDrop& drop) {
+void dropTree(const DrawnTree& tree, const std::vector<Pose>& poses, bool leaves, double depth,
+              const ShadowDrop& drop) {
   const double radius = 0.5 * tree.leafSize();
   const auto& branches = tree.tree().skeleton.branches;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const forest::Branch& branch = branches[i];
     if (branch.broken) continue;
-    const forest::Pose& pose = poses.empty() ? branch.rest : poses[i];
+    const Pose& pose = poses.empty() ? branch.rest : poses[i];
     const Vec3 base = tree.foot() + pose.position;
     const Vec3 tip = tree.foot() + tipOf(branch, pose);
     for (int leaf = 0; leaves && leaf < branch.leaves; ++leaf)

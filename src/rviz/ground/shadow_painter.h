@@ -39,8 +39,8 @@ class ShadowPainter {
 
 /// Drops the balls of a tree in a pose. @param poses of its branches in the tree's frame; empty:
 /// at rest. @param depth factor on the optical depths.
-void dropTree(const DrawnTree& tree, const std::vector<forest::Pose>& poses, bool leaves,
-              double depth, const ShadowDrop& drop);
+void dropTree(const DrawnTree& tree, const std::vector<Pose>& poses, bool leaves, double depth,
+              const ShadowDrop& drop);
 /// Counts the balls of a tree.
 std::size_t countDrops(const DrawnTree& tree, bool leaves);
 

@@ -46,7 +46,7 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
 
 ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            const terrain::HeightMap& terrain, const Image& picture,
-                           std::unique_ptr<MovingShadows> moving)
+                           std::unique_ptr<MovingShadows>&& moving)
     : node_(parent.createChildSceneNode()),
       moving_(std::move(moving)),
       texture_(uniqueName("veil_picture"), mipmaps(picture)),

@@ -32,7 +32,7 @@ class ShadowVisual {
 
  private:
   ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
-               const Image& picture, std::unique_ptr<MovingShadows> moving);
+               const Image& picture, std::unique_ptr<MovingShadows>&& moving);
   Ogre::SceneNode* node_;                  // owned by Ogre, destroyed in the destructor
   std::unique_ptr<MovingShadows> moving_;  // null: at rest
   Texture texture_;

@@ -233,6 +233,15 @@ class ForestGrab(unittest.TestCase):
         self.assertLess(self.hands.point(LIMB, 0.3)[2], calm[2] - 0.01)
         self.clock.run_until(lambda: not self.hands.physical(), 'the end', self.hands)
 
+    # S1-W3: the calibration run makes all branches of a tree physical, also without a force.
+    def test_a_whole_tree_is_physical_for_its_time(self):
+        answer = self.hands.apply_force(tree=TREE, branch=0, duration=0.5, whole_tree=True)
+        self.assertTrue(answer.success, answer.message)
+        self.hands.run(2)
+        tree = self.hands.tree(TREE)
+        self.assertEqual(list(tree.physical), list(range(len(tree.parents))))
+        self.clock.run_until(lambda: not self.hands.physical(), 'the end', self.hands)
+
     def test_a_request_may_be_ahead(self):
         start = time_of(self.clock.tick + RATE)
         answer, _ = self.hands.take_at((0.1, 0.0, 0.0), stamp=start)
