@@ -13,7 +13,7 @@ import sys
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
 from std_msgs.msg import Header
-from vegetation_sim.msg import ForestState, GrassState, SensorInterest, Viewer
+from vegetation_sim.msg import AgentStates, ForestState, GrassState, SensorInterest, Viewer
 
 from forest_rig import RATE, start_node, stop, time_of
 from waiting import SimulatedClock, wait_for
@@ -23,6 +23,7 @@ PLACES = 8  # viewers and sensors
 FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
 LISTENERS = {'display': ('/forest/view', '/grass/state', '/agents/view'),
              'lidar': ('/forest/state', '/grass/state', '/agents')}
+AWAITED = {'/forest/state': ForestState, '/grass/state': GrassState, '/agents': AgentStates}  # at each tick
 
 
 def write_scene(path, tiles, walkers):
@@ -82,8 +83,9 @@ def main():
         # Shards have equal parts of the budgets of one node.
         forests.append(start_node('forest_animator', '/forest_%d' % index, {}, frame_time=FRAME_TIME / shards,
                                   modal_trees=MODAL_TREES // shards, **share))
-        meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000, **share))
-    counters = {topic: Counter(topic, {'/forest/state': ForestState, '/grass/state': GrassState}.get(topic))
+        meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000,
+                                  cover_resolution=1.0, **share))
+    counters = {topic: Counter(topic, AWAITED.get(topic))
                 for topics in LISTENERS.values() for topic in topics}
     viewers = rospy.Publisher('/viewer', Viewer, queue_size=100)
     sensors = rospy.Publisher('/forest/sensors', SensorInterest, queue_size=100)
@@ -105,8 +107,9 @@ def main():
                                                    position=Point(place, place, 1.5)))
             stamp = time_of(tick)
             clock.set(stamp + rospy.Duration(0.5 / RATE))
-            for topic in ('/forest/state', '/grass/state'):
-                wait_for(lambda t=topic, s=stamp: counters[t].stamps[s] >= shards, '%s %s' % (topic, stamp))
+            for topic in AWAITED:
+                count = 1 if topic == '/agents' else shards
+                wait_for(lambda t=topic, s=stamp, n=count: counters[t].stamps[s] >= n, '%s %s' % (topic, stamp))
 
     run(FIRST, FIRST + WARM_UP)
     before = {process.pid: cost_of(process)[0] for process in forests + meadows}
