@@ -305,7 +305,8 @@ void run(const bench::Options& options) {
       {"128 x 2048", beamsOf(128, 2048), options.quick ? 100 : 16}};
   if (options.wants("rays")) benchRays(scenes.views(), lidars, options.rounds);
   if (options.wants("sets")) benchSets(scenes.viewsOfAll(), lidars[0], options.rounds);
-  if (options.wants("sweeps")) benchSweeps(scenes.viewsOfAll(), lidars, std::min(options.rounds, 5));
+  if (options.wants("sweeps"))
+    benchSweeps(scenes.viewsOfAll(), lidars, std::min(options.rounds, 5));
   if (options.wants("update"))
     benchUpdate(scenes.forest(), scenes.lawn(), scenes.grove(), options.rounds);
   if (options.wants("sky")) benchSky(scenes.viewsOfAll(), options.rounds);

@@ -55,7 +55,7 @@ void CrowdShard::beginTick() {
   seen.erase(std::remove_if(seen.begin(), seen.end(),
                             [this](const Walker& walker) { return crowd_->find(walker.id); }),
              seen.end());
-  // Of a person in two borders the first counts: those who have just left, then by shard.
+  // If a person is in two borders, the first counts: those that have just left, then by shard.
   std::stable_sort(seen.begin(), seen.end(),
                    [](const Walker& a, const Walker& b) { return a.id < b.id; });
   seen.erase(std::unique(seen.begin(), seen.end(),

@@ -11,9 +11,9 @@
 
 namespace vegetation_sim::crowd {
 
-/// What one shard of a crowd tells the others after a tick.
+/// State that one shard of a crowd sends to the others after a tick.
 struct CrowdBorder {
-  /// A person who has crossed the border, with all of the state.
+  /// A person beyond the border now, with all of the state.
   struct Handed {
     std::uint32_t to{0};   ///< shard
     Nanoseconds stamp{0};  ///< of the tick in which the person has crossed it

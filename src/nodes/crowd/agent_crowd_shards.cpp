@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The services of the node, which shards answer them, and what shards tell each other.
+// The services of the node, which shards answer them, and what shards send to each other.
 #include "nodes/crowd/agent_crowd.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"

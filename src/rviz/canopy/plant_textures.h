@@ -19,7 +19,7 @@ class PlantTextures {
   /// Returns the painted leaves and the textures as one atlas with mipmaps.
   std::vector<Image> atlas(int edge) const;
   bool empty() const { return pictures_.empty(); }
-  /// What the faces of a material look like.
+  /// Look of the faces of a material.
   struct Look {
     int place{-1};  ///< in the atlas; -1: no texture
     Vec3 colour{Vec3::Ones()};
