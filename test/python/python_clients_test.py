@@ -88,7 +88,7 @@ class PythonClients(unittest.TestCase):
         hold = self.forest.grab(tree=TREE, branch=LIMB)
         self.forest.release_all()
         wait_for(lambda: self.status_of(hold.id) == [GrabStatus.RELEASED], 'the release')
-        with self.assertRaisesRegex(VegetationError, 'move_grab: id = %d is unknown' % hold.id):
+        with self.assertRaisesRegex(VegetationError, 'move_grab: id = %d has been released' % hold.id):
             hold.move((0, 0, 0))
         with self.assertRaisesRegex(VegetationError, 'release: id = %d is unknown' % hold.id):
             hold.release()
