@@ -16,6 +16,13 @@ inline double processorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Returns the processor time of the calling thread [s].
+inline double threadTime() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 /// Does timeInterleaved in processor time, for work of one thread.
 inline void timeOnProcessor(std::vector<Candidate>& candidates, int rounds) {
   std::vector<std::vector<double>> times(candidates.size());

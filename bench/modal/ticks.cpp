@@ -3,23 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <thread>
 
 #include "modal/measure.h"
+#include "processor_time.h"
 #include "scenes/forest/modal_forest_scene.h"
 
 namespace vegetation_sim::bench {
-namespace {
-
-double threadTime() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
-
 void measureTicks() {
   std::printf("\nfour oaks that get fine modes in a breeze, ticks of 60 Hz [ms]\n");
   std::printf("| branches | median tick | longest, work of its thread | longest, with waiting |\n");

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vegetation_sim/wind/instant.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/math/math_batch.h"
 #include "vegetation_sim/core/math/math.h"
 #include "wind/laws.h"
 
@@ -11,8 +14,15 @@ namespace vegetation_sim::wind {
 
 Vec3 Instant::velocity(const Vec3& position) const {
   Vec3 sum = mean;
-  for (const Mode& mode : modes)
-    sum += mode.amplitude * sinCosTurns(dot(mode.wave, position) + mode.phase).cos;
+  constexpr std::size_t AT_ONCE = 32;
+  std::array<double, AT_ONCE> turns;
+  for (std::size_t first = 0; first < modes.size(); first += AT_ONCE) {
+    const std::size_t count = std::min(AT_ONCE, modes.size() - first);
+    for (std::size_t i = 0; i < count; ++i)
+      turns[i] = dot(modes[first + i].wave, position) + modes[first + i].phase;
+    batchCosTurns(turns.data(), count, turns.data());
+    for (std::size_t i = 0; i < count; ++i) sum += modes[first + i].amplitude * turns[i];
+  }
   for (const Term& term : terms) sum += velocityOf(term, position);
   return sum;
 }

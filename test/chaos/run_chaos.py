@@ -106,9 +106,9 @@ def keep_snapshots(folder, final, again):
         if final[node] == again[node]:
             continue
         os.makedirs(kept, exist_ok=True)
-        for run, source in ('live', folder), ('replay', os.path.join(folder, 'replay')):
+        for run, name in ('live', 'final/%s'), ('replay', 'replay/final/replay.%s'):
             target = os.path.join(kept, '%s_%s.snapshot' % (node, run))
-            shutil.copy(os.path.join(source, 'final', node + '.snapshot'), target)
+            shutil.copy(os.path.join(folder, name % node + '.snapshot'), target)
             print('the final hashes differ: kept ' + target)
 
 

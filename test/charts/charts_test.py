@@ -16,6 +16,8 @@ import rostest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / 'scripts/charts/charts'
 sys.path.insert(0, str(PROGRAM.parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import direct_values  # noqa: E402
 from charting import registry, stamp, style, tables  # noqa: E402
 from charting.chart import RequestError  # noqa: E402
 
@@ -71,10 +73,24 @@ class Charts(unittest.TestCase):
         self.assertIn('2 of 2 charts', done.stdout)
         self.assert_drawn('grass_ladder')
         self.assert_drawn('stability_limits')
+        direct_values.check_step_limits(self, tables.read(
+            self.out / 'stability_limits.csv', registry.all_charts()['stability_limits'].columns))
         words = (self.out / 'grass_ladder.svg').read_text()
         for wanted in ('default', 'Pareto front', 'processor time of a blade [ns]'):
             self.assertIn(wanted, words)
         self.assertFalse(list(self.out.glob('*.part')))
+
+    # N9: values in the documentation agree with direct computations.
+    def test_documented_values_are_those_of_direct_computation(self):
+        def rows_of(name):
+            columns = registry.all_charts()[name].columns
+            return tables.read(ROOT / 'docs/charts' / (name + '.csv'), columns)
+        direct_values.check_step_limits(self, rows_of('stability_limits'))
+        direct_values.check_breeze(self, rows_of('breeze_spectrum'))
+        damaged = rows_of('stability_limits')
+        damaged[0]['y'] *= 1.01
+        with self.assertRaises(AssertionError):
+            direct_values.check_step_limits(self, damaged)
 
     def test_errors_name_unknown_charts(self):
         done = run(PROGRAM, '--only', 'grass_ladder,no_such', '--out', self.out)

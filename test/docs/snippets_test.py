@@ -144,7 +144,7 @@ class Snippets(unittest.TestCase):
     def filter_topic(self, line):
         """On a busy machine the first message may need more seconds than the page gives."""
         for seconds in ('3', '20'):
-            _, output = self.shell.run(line.replace('timeout 3', 'timeout ' + seconds))
+            _, output = self.shell.run(re.sub(r'^timeout \d', 'timeout ' + seconds, line))
             if output:
                 return
         self.fail('no output')
@@ -187,7 +187,7 @@ class Snippets(unittest.TestCase):
         (r'rosrun planner_map .*', start_example),
         (r'roslaunch vegetation_sim .*', load_launch_file),
         (r'(rostopic echo -n 1 /|rossrv show -r )\S+', print_something),
-        (r'timeout 3 rostopic echo .*', filter_topic),
+        (r'timeout \d rostopic echo .*', filter_topic),
         (r'rostopic hz /\S+', measure_rate),
         (r'rosbag record -O .*', record),
     )

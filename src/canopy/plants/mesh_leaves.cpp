@@ -42,6 +42,16 @@ void check(const LeafMesh& mesh, Faults& faults) {
   if (!mesh.rigid.empty() && mesh.rigid.size() != mesh.faces.size())
     faults.add(std::to_string(mesh.rigid.size()) + " rigid marks for " +
                std::to_string(mesh.faces.size()) + " faces");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.vertices.size())
+    faults.add(std::to_string(mesh.normals.size()) + " normals for " +
+               std::to_string(mesh.vertices.size()) + " vertices");
+  if (!mesh.material.empty() && mesh.material.size() != mesh.faces.size())
+    faults.add(std::to_string(mesh.material.size()) + " materials for " +
+               std::to_string(mesh.faces.size()) + " faces");
+  for (const std::uint16_t material : mesh.material)
+    if (material > mesh.materials.size())
+      return faults.add("material " + std::to_string(material) + " is outside 0 to " +
+                        std::to_string(mesh.materials.size()));
   Wrong places, corners;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& v = mesh.vertices[i];
@@ -121,12 +131,41 @@ class Measure {
     return Vec3(upright(vertex) - foot) / height();
   }
 
- private:
+  /// Turns a direction or a place of the mesh so that z points up.
   Vec3 upright(const Vec3& v) const { return y_up_ ? Vec3(v.x(), -v.z(), v.y()) : v; }
 
+ private:
   bool y_up_;
   Vec3 low_, high_;
 };
+
+/// Returns the places of a triangle in a texture that repeats, moved into 0 to 1 by whole repeats;
+/// what is still beyond is at the edge.
+std::array<std::array<float, 2>, 3> placesOf(const LeafMesh& mesh,
+                                             const std::array<std::uint32_t, 3>& face) {
+  std::array<std::array<float, 2>, 3> out{};
+  if (mesh.uv.empty()) return out;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    double middle = 0.0;
+    for (const std::uint32_t corner : face) middle += mesh.uv[corner][axis] / 3.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = mesh.uv[face[k]][axis] - std::floor(middle);
+      out[k][axis] = std::isfinite(place) ? static_cast<float>(saturate(place)) : 0.F;
+    }
+  }
+  return out;
+}
+
+std::array<float, 3> normalOf(const LeafMesh& mesh, const std::array<std::uint32_t, 3>& face,
+                              const Measure& measure) {
+  if (mesh.normals.empty()) return {};
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t corner : face) sum += measure.upright(mesh.normals[corner]);
+  const double size = length(sum);
+  if (!(size > 1e-6) || !std::isfinite(size)) return {};
+  return {static_cast<float>(sum.x() / size), static_cast<float>(sum.y() / size),
+          static_cast<float>(sum.z() / size)};
+}
 
 /// Returns the root vertex of each leaf.
 std::vector<std::uint32_t> rootsOf(const LeafMesh& mesh, const std::vector<std::uint32_t>& leaves,
@@ -195,6 +234,7 @@ Form formOf(const LeafMesh& mesh, bool y_up) {
   const std::vector<std::uint32_t> roots = rootsOf(mesh, leaves, measure);
   const Random random(0x6d657368);
   Form out;
+  out.materials = mesh.materials;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const auto corner = [&](std::size_t k) { return measure(mesh.vertices[mesh.faces[i][k]]); };
     Leaf face;
@@ -208,6 +248,11 @@ Form formOf(const LeafMesh& mesh, bool y_up) {
     face.shade = static_cast<float>(random.uniform(leaves[i]));
     const double away = 2.0 * length(Vec3(face.tip - Vec3(0.0, 0.0, 0.5)));
     face.light = static_cast<float>(0.4 + 0.6 * saturate(away));
+    if (!mesh.material.empty() && mesh.material[i] > 0) {
+      out.looks.push_back({placesOf(mesh, mesh.faces[i]), normalOf(mesh, mesh.faces[i], measure),
+                           static_cast<std::uint16_t>(mesh.material[i] - 1)});
+      face.look = static_cast<std::uint32_t>(out.looks.size());
+    }
     (!mesh.rigid.empty() && mesh.rigid[i] ? out.rigid : out.leaves).push_back(face);
   }
   finish(out);

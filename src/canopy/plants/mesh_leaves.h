@@ -16,7 +16,10 @@ struct LeafMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<double, 2>> uv;  ///< of each vertex; empty if the file has none
   std::vector<std::array<std::uint32_t, 3>> faces;
-  std::vector<bool> rigid;  ///< of each face; empty if none is rigid
+  std::vector<bool> rigid;              ///< of each face; empty if none is rigid
+  std::vector<Vec3> normals;            ///< of each vertex; empty if the file has none
+  std::vector<FaceMaterial> materials;  ///< those with a colour or a texture
+  std::vector<std::uint16_t> material;  ///< of each face: 1 + index, or 0; empty if all are 0
 };
 
 /// Returns whether the name of a material or an object marks rigid faces (S3-02). @param words of

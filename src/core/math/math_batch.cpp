@@ -21,6 +21,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::size_t sinCosOfMany(const double*, std::size_t, double*, double*) {
   return 0;
 }
+std::size_t cosTurnsOfMany(const double*, std::size_t, double*) {
+  return 0;
+}
 std::size_t arcTangentOfMany(const double*, const double*, std::size_t, double*) {
   return 0;
 }
@@ -62,19 +65,30 @@ struct LanesSinCos {
   Lanes sin, cos;
 };
 
+// The sine and cosine of x plus a number of quarter turns.
+HWY_INLINE LanesSinCos turnQuarters(Lanes x, Lanes quarters) {
+  const Lanes s = sineLanes(x), c = cosineLanes(x);
+  const Lanes turn = quarters - all(4.0) * hn::Floor(quarters * all(0.25));  // 0, 1, 2 or 3
+  const auto second = turn == all(1.0), third = turn == all(2.0), fourth = turn == all(3.0);
+  const auto swapped = hn::Or(second, fourth);
+  const Lanes sin = hn::IfThenElse(swapped, c, s), cos = hn::IfThenElse(swapped, s, c);
+  return {hn::IfThenElse(hn::Or(third, fourth), hn::Neg(sin), sin),
+          hn::IfThenElse(hn::Or(second, third), hn::Neg(cos), cos)};
+}
+
 // Requires |angle| < 1e6.
 HWY_INLINE LanesSinCos sinCosLanes(Lanes angle) {
   const Lanes quadrant = hn::Floor(angle * all(2.0 / PI) + all(0.5));
   const Lanes x = ((angle - quadrant * all(1.57079632673412561417e+00)) -
                    quadrant * all(6.07710050630396597660e-11)) -
                   quadrant * all(2.02226624879595063154e-21);
-  const Lanes s = sineLanes(x), c = cosineLanes(x);
-  const Lanes turn = quadrant - all(4.0) * hn::Floor(quadrant * all(0.25));  // 0, 1, 2 or 3
-  const auto second = turn == all(1.0), third = turn == all(2.0), fourth = turn == all(3.0);
-  const auto swapped = hn::Or(second, fourth);
-  const Lanes sin = hn::IfThenElse(swapped, c, s), cos = hn::IfThenElse(swapped, s, c);
-  return {hn::IfThenElse(hn::Or(third, fourth), hn::Neg(sin), sin),
-          hn::IfThenElse(hn::Or(second, third), hn::Neg(cos), cos)};
+  return turnQuarters(x, quadrant);
+}
+
+HWY_INLINE Lanes cosTurnsLanes(Lanes turns) {
+  const Lanes fraction = turns - hn::Floor(turns + all(0.5));
+  const Lanes quarter = hn::Floor(fraction * all(4.0) + all(0.5));
+  return turnQuarters((fraction - quarter * all(0.25)) * all(2.0 * PI), quarter).cos;
 }
 
 HWY_INLINE Lanes arcTangentLanes(Lanes y, Lanes x) {
@@ -94,7 +108,7 @@ HWY_INLINE Lanes arcTangentLanes(Lanes y, Lanes x) {
   return hn::IfThenElseZero(any, angle);
 }
 
-// Both return for how many numbers they have done it: whole vectors.
+// They return for how many numbers they have done it: whole vectors.
 std::size_t sinCosOfMany(const double* angle, std::size_t count, double* sin, double* cos) {
   const Tag tag;
   std::size_t i = 0;
@@ -105,6 +119,14 @@ std::size_t sinCosOfMany(const double* angle, std::size_t count, double* sin, do
     hn::StoreU(out.sin, tag, sin + i);
     hn::StoreU(out.cos, tag, cos + i);
   }
+  return i;
+}
+
+std::size_t cosTurnsOfMany(const double* turns, std::size_t count, double* cos) {
+  const Tag tag;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(tag) <= count; i += hn::Lanes(tag))
+    hn::StoreU(cosTurnsLanes(hn::LoadU(tag, turns + i)), tag, cos + i);
   return i;
 }
 
@@ -124,6 +146,7 @@ HWY_AFTER_NAMESPACE();
 namespace vegetation_sim {
 
 HWY_EXPORT(sinCosOfMany);
+HWY_EXPORT(cosTurnsOfMany);
 HWY_EXPORT(arcTangentOfMany);
 
 void batchSinCos(const double* angle, std::size_t count, double* sin, double* cos) {
@@ -133,6 +156,11 @@ void batchSinCos(const double* angle, std::size_t count, double* sin, double* co
     sin[i] = out.sin;
     cos[i] = out.cos;
   }
+}
+
+void batchCosTurns(const double* turns, std::size_t count, double* cos) {
+  std::size_t i = HWY_DYNAMIC_DISPATCH(cosTurnsOfMany)(turns, count, cos);
+  for (; i < count; ++i) cos[i] = sinCosTurns(turns[i]).cos;
 }
 
 void batchArcTangent(const double* y, const double* x, std::size_t count, double* out) {

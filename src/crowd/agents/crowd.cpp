@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "crowd/agents/crowd_owners.h"
 #include "crowd/body/gait.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/core/math/math.h"
@@ -101,6 +102,16 @@ std::uint64_t CrowdSnapshot::hash() const {
   return hash.value();
 }
 
+std::uint64_t CrowdSnapshot::walkersHash() const {
+  std::uint64_t out = 0;
+  for (const Walker& walker : walkers) {
+    Hash hash;
+    add(hash, walker);
+    out += hash.value();
+  }
+  return out;
+}
+
 Crowd::Crowd(std::uint64_t seed, const CrowdSettings& settings, const Area& area,
              std::shared_ptr<const terrain::HeightMap> terrain)
     : terrain_(std::move(terrain)) {
@@ -185,6 +196,23 @@ Walker& Crowd::at(std::uint32_t id) {
 
 void Crowd::remove(std::uint32_t id) {
   memory_.walkers.erase(memory_.walkers.begin() + (&at(id) - memory_.walkers.data()));
+}
+
+std::vector<Walker> Crowd::takeOutside(const CrowdOwners& owners) {
+  std::vector<Walker>& all = memory_.walkers;
+  const auto first = std::stable_partition(
+      all.begin(), all.end(), [&](const Walker& w) { return owners.owns(w.position); });
+  std::vector<Walker> out(first, all.end());
+  all.erase(first, all.end());
+  return out;
+}
+
+void Crowd::takeIn(const Walker& walker) {
+  const std::size_t index = indexOf(walker.id);
+  if (find(walker.id))
+    throw InvalidInput("walker " + std::to_string(walker.id) + " exists already");
+  memory_.next_id = std::max(memory_.next_id, walker.id + 1);
+  memory_.walkers.insert(memory_.walkers.begin() + static_cast<std::ptrdiff_t>(index), walker);
 }
 
 void Crowd::checkGoal(std::uint32_t id, const Point& goal) {

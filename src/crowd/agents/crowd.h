@@ -36,10 +36,14 @@ struct CrowdSnapshot {
 
   /// Leaves out `ways`, which change nothing but what walkers do.
   std::uint64_t hash() const;
+  /// Sum modulo 2^64 of the hashes of the walkers; those of all shards add up to that of one crowd.
+  std::uint64_t walkersHash() const;
 };
 
 /// Resistance of the ground at a place over a reference: 0 for free ground; above 1 it counts as 1.
 using Resistance = std::function<double(const Point&)>;
+
+class CrowdOwners;
 
 /// Limits of a crowd.
 constexpr std::size_t MOST_WALKERS = 100000, MOST_ROBOTS = 64;
@@ -76,6 +80,14 @@ class Crowd {
   /// Removes all walkers; ids start again.
   void clear();
 
+  /// Removes the walkers whose places another shard owns, and returns them by rising id.
+  std::vector<Walker> takeOutside(const CrowdOwners& owners);
+  /// Adds a walker that has left another shard. @throws InvalidInput if its id is not free.
+  void takeIn(const Walker& walker);
+  /// Sets the walkers of other shards, by rising id, that those of this one see in the next tick.
+  /// No id may be that of a walker here.
+  void setOthers(std::vector<Walker> others) { others_ = std::move(others); }
+
   /// Advances by one tick. A stamp that is not later moves no walker.
   void advance(Nanoseconds stamp);
 
@@ -96,12 +108,14 @@ class Crowd {
 
  private:
   struct Tick;
+  static constexpr std::size_t NOT_HERE = SIZE_MAX;
   std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);
   void updateSurroundings();
+  void mergeOthers();
   void findAims();
   Wish wishOf(Walker& walker, const Point& front, std::size_t index) const;
-  void stepOne(std::size_t index, const Tick& tick, Walker& walker) const;
+  void stepOne(std::size_t index, std::uint32_t rank, const Tick& tick, Walker& walker) const;
   void keepSide(int taken, double dt, Walker& walker) const;
   void loosen(double wanted, const Tick& tick, Walker& walker) const;
   void reach(const Tick& tick, Walker& walker) const;
@@ -116,7 +130,10 @@ class Crowd {
   Resistance resistance_;
   std::shared_ptr<ThreadPool> threads_{std::make_shared<ThreadPool>()};
   CrowdSnapshot memory_;
-  WalkerGrid grid_;  ///< positions at the last tick
+  std::vector<Walker> others_;      ///< of other shards, by rising id
+  std::vector<Walker> all_;         ///< walkers and others_, by rising id; empty without others
+  std::vector<std::size_t> index_;  ///< of the walkers in all_, NOT_HERE of others
+  WalkerGrid grid_;                 ///< positions of all at the last tick
   std::vector<Obstacle> robots_;
   std::vector<WayQuery> queries_;  ///< walkers on a detour
   std::vector<Point> aims_;        ///< goal of each walker, or where its detour leads now

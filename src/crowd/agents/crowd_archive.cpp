@@ -1,14 +1,14 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The snapshot of a crowd as bytes.
+// The snapshot of a crowd, and people, as bytes.
 #include "core/archive/archive.h"
-#include "crowd/agents/crowd.h"
+#include "crowd/agents/crowd_shard.h"
 
 namespace vegetation_sim::crowd {
 namespace {
 
 constexpr std::size_t WALKER_BYTES = 218, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
-constexpr std::size_t WAY_BYTES = 12;
+constexpr std::size_t WAY_BYTES = 12, BORDER_BYTES = 20;
 constexpr std::size_t MOST_CORNERS = 4096;
 
 void archive(Archive& a, const char* name, Point& point) {
@@ -79,6 +79,30 @@ void checkRead(const CrowdSnapshot& snapshot) {
   faults.throwIfAny();
 }
 
+void archivePeople(Archive& a, std::vector<Walker>& people) {
+  a.list("people", people, MOST_WALKERS, WALKER_BYTES,
+         [&a](Walker& walker) { archive(a, walker); });
+}
+
+void archiveHanded(Archive& a, std::vector<CrowdBorder::Handed>& all) {
+  a.list("people handed over", all, MOST_WALKERS, WALKER_BYTES + 12,
+         [&a](CrowdBorder::Handed& handed) {
+           a.integer("shard", handed.to);
+           a.stamp("stamp of crossing", handed.stamp);
+           archive(a, handed.walker);
+         });
+}
+
+void archiveFields(Archive& a, CrowdBorder& border) {
+  a.stamp("stamp of border", border.stamp);
+  archivePeople(a, border.near);
+  archiveHanded(a, border.handed);
+  a.map(
+      "heard", border.heard, MOST_SHARDS, 12,
+      [&a](std::uint32_t& shard) { a.integer("shard", shard); },
+      [&a](std::uint32_t, Nanoseconds& stamp) { a.stamp("stamp heard", stamp); });
+}
+
 void archive(Archive& a, CrowdSnapshot& snapshot) {
   a.stamp("stamp", snapshot.stamp);
   a.flag("begun", snapshot.begun);
@@ -98,6 +122,29 @@ void archive(Archive& a, CrowdSnapshot& snapshot) {
 }
 
 }  // namespace
+
+void CrowdShard::archive(Archive& a) {
+  a.map(
+      "borders", borders_, MOST_SHARDS, BORDER_BYTES,
+      [&a](std::uint32_t& shard) { a.integer("shard", shard); },
+      [&a](std::uint32_t, CrowdBorder& border) { archiveFields(a, border); });
+  archiveHanded(a, handed_);
+  archivePeople(a, left_);
+}
+
+std::string archiveBorder(CrowdBorder border) {
+  Archive a;
+  archiveFields(a, border);
+  return a.bytes();
+}
+
+CrowdBorder readBorder(std::string bytes) {
+  Archive a = Archive::reading(std::move(bytes), 0);
+  CrowdBorder out;
+  archiveFields(a, out);
+  a.finish();
+  return out;
+}
 
 std::string Crowd::archived() const {
   Archive a;

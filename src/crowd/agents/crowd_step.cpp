@@ -63,20 +63,46 @@ void Crowd::advance(Nanoseconds stamp) {
   findAims();
   // Neighbours are processed one after the other, since they share data in the cache.
   const auto& spots = grid_.spots();
+  const auto index_of = [&](std::size_t i) {
+    return index_.empty() ? std::size_t{spots[i].index} : index_[spots[i].index];
+  };
   forAll(spots.size(), [&](std::size_t i) {
-    if (i + AHEAD < spots.size()) prefetch(memory_.walkers[spots[i + AHEAD].index]);
-    stepOne(spots[i].index, tick, memory_.walkers[spots[i].index]);
+    const std::size_t ahead = i + AHEAD < spots.size() ? index_of(i + AHEAD) : NOT_HERE;
+    if (ahead != NOT_HERE) prefetch(memory_.walkers[ahead]);
+    const std::size_t index = index_of(i);
+    if (index != NOT_HERE) stepOne(index, spots[i].index, tick, memory_.walkers[index]);
   });
   memory_.ways = ways_.progress();
 }
 
 void Crowd::updateSurroundings() {
-  const std::vector<Walker>& walkers = memory_.walkers;
+  mergeOthers();
+  const std::vector<Walker>& walkers = index_.empty() ? memory_.walkers : all_;
   robots_.clear();
   for (const auto& entry : memory_.robots) robots_.push_back(obstacleOf(entry.second));
   double widest = 0.0;
   for (const Walker& w : walkers) widest = std::max(widest, w.radius);
   grid_.build(walkers, memory_.settings.sensor_range + 2.0 * widest);
+}
+
+// The order by ids is that of one crowd, which decides between obstacles at equal distances.
+void Crowd::mergeOthers() {
+  all_.clear();
+  index_.clear();
+  if (others_.empty()) return;
+  std::size_t own = 0;
+  const auto add_own = [&](std::uint32_t end) {
+    for (; own < memory_.walkers.size() && memory_.walkers[own].id < end; ++own) {
+      all_.push_back(memory_.walkers[own]);
+      index_.push_back(own);
+    }
+  };
+  for (const Walker& other : others_) {
+    add_own(other.id);
+    all_.push_back(other);
+    index_.push_back(NOT_HERE);
+  }
+  add_own(UINT32_MAX);
 }
 
 void Crowd::findAims() {
@@ -207,19 +233,18 @@ void Crowd::reach(const Tick& tick, Walker& w) const {
   w.detours = is_stuck || (raster.hasLarge() && !raster.isClear(w.position, w.goal, true));
 }
 
-void Crowd::stepOne(std::size_t index, const Tick& tick, Walker& w) const {
+void Crowd::stepOne(std::size_t index, std::uint32_t rank, const Tick& tick, Walker& w) const {
   const CrowdSettings& s = memory_.settings;
-  const auto self = static_cast<std::uint32_t>(index);
   const bool by_paper = s.behaviour == Behaviour::PAPER;
   const Point front = frontOf(w);
   const Wish wish = wishOf(w, front, index);
-  const View view = perceive(w, self, tick.around, s.sensor_range, s.neighbours);
+  const View view = perceive(w, rank, tick.around, s.sensor_range, s.neighbours);
   int side = 0;
   const Command command = by_paper ? decideByPaper(w, view, s, wish, tick.stamp)
                                    : decideByGoal(w, view, s, wish, tick.stamp, side);
   keepSide(side, tick.dt, w);
   std::array<Limit, View::MOST> limits;
-  const int count = limitsOf(self, view, s, tick.dt, limits);
+  const int count = limitsOf(rank, view, s, tick.dt, limits);
   const Point velocity = followed(w, front, command, s, tick.dt);
   // A walker that overlaps others moves out by small steps, regardless of other obstacles.
   const bool overlaps = view.count > 0 && view.at(0).gap < 0.0;

@@ -24,9 +24,12 @@ Ball ballOf(const Body& body, Nanoseconds from, Nanoseconds to) {
 }
 
 bool holds(const Ball& ball, const Branch& branch, const Pose& pose, const Vec3& foot) {
-  const Vec3 offset = ball.centre - foot - pose.position, axis = axisZ(pose.orientation);
+  const Vec3 offset = ball.centre - foot - pose.position;
+  const double near = ball.radius + branch.base_radius, far = 1.001 * (near + branch.length);
+  if (dot(offset, offset) > far * far) return false;  // most branches are far away
+  const Vec3 axis = axisZ(pose.orientation);
   const double along = std::clamp(dot(offset, axis), 0.0, branch.length);
-  return length(offset - along * axis) <= ball.radius + branch.base_radius;
+  return length(offset - along * axis) <= near;
 }
 
 // Returns true if a tree may reach into the ball, by a cylinder with a margin for its bends.

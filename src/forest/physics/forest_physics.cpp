@@ -32,6 +32,12 @@ std::vector<std::size_t> splitByBranches(const std::vector<TreeSteps>& trees, st
   return out;
 }
 
+// Reviews of single trees begin at multiples of REVIEW, so that they depend neither on other trees
+// nor on when the process started.
+Nanoseconds firstReview(Nanoseconds start) {
+  return (start + REVIEW - 1) / REVIEW * REVIEW;
+}
+
 Vec3 pointOn(const Pose& pose, double along) {
   return pose.position + along * axisZ(pose.orientation);
 }
@@ -120,11 +126,9 @@ void ForestPhysics::requestReview(const StepContext& context, std::uint32_t tree
   if (subtree != subtrees_.end()) subtree->second.setNextReview(0);
 }
 
-// Reviews by tree of those that bodies make physical begin with the review that all such trees
-// share, so that none depends on grabs and pushes of other trees.
 void ForestPhysics::beginReviews(const StepContext& context, Nanoseconds start) {
   const bool is_due = start >= next_review_;
-  if (is_due && !(context.reviews_by_tree && bodies_.empty())) next_review_ = start + REVIEW;
+  if (is_due && !context.reviews_by_tree) next_review_ = start + REVIEW;
   for (auto& entry : subtrees_)
     if (context.reviews_by_tree)
       entry.second.beginTick(start);
@@ -149,14 +153,18 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     loaded[point.tree].push_back(point.branch);
   }
   for (const Push& push : pushes_)
-    if (push.from < to && push.until > from) loaded[push.point.tree].push_back(push.point.branch);
+    if (push.from < to && push.until > from) {
+      loaded[push.point.tree].push_back(push.point.branch);
+      if (push.whole_tree) appendWholeTree(context, push.point.tree, loaded[push.point.tree]);
+    }
   for (auto& [tree, subtree] : subtrees_)
     if (!loaded.count(tree)) subtree.releaseJoints();
   for (auto it = refused_.begin(); it != refused_.end();)
     it = loaded.count(it->first) ? std::next(it) : refused_.erase(it);
   for (const auto& entry : loaded)
     if (!subtrees_.count(entry.first))
-      findOrAddSubtree(context, entry.first).setNextReview(next_review_);
+      findOrAddSubtree(context, entry.first)
+          .setNextReview(context.reviews_by_tree ? firstReview(from) : next_review_);
   beginReviews(context, from);
   for (const auto& [tree, branches] : loaded) {
     PhysicalSubtree& subtree = subtrees_.at(tree);
@@ -164,6 +172,14 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     for (const int branch : branches) missing = missing || !subtree.holds(branch);
     if (subtree.isInReview() || missing) promoteInTree(context, tree, subtree, branches, from);
   }
+}
+
+// Adds all branches of a tree that have not come off.
+void ForestPhysics::appendWholeTree(const StepContext& context, std::uint32_t tree,
+                                    std::vector<int>& loaded) {
+  const auto& branches = findOrAddSubtree(context, tree).tree().skeleton.branches;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    if (!branches[i].broken) loaded.push_back(static_cast<int>(i));
 }
 
 // Makes the branches physical that the loads of a tree need.

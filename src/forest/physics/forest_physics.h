@@ -99,6 +99,8 @@ class ForestPhysics {
   void setSettings(const PhysicsSettings& settings, Nanoseconds now);
   /// @throws InvalidInput if a branch that `what` loads could not be physical now.
   void checkRoom(const std::string& what, std::uint32_t tree, int branch) const;
+  /// @throws InvalidInput if not all branches of a tree could be physical now.
+  void checkRoomForTree(const std::string& what, const Tree& tree, std::uint32_t id) const;
   /// Removes grabs, pushes, bodies and all physical subtrees, and makes broken trees whole; keeps
   /// the settings.
   void clear();
@@ -143,6 +145,7 @@ class ForestPhysics {
   void archiveContacts(Archive& a, const Layout& layout);
   void checkRead(const Layout& layout, const GrowTree& grow) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
+  void appendWholeTree(const StepContext& context, std::uint32_t tree, std::vector<int>& loaded);
   void requestReview(const StepContext& context, std::uint32_t tree);
   void beginReviews(const StepContext& context, Nanoseconds start);
   void endLeases(Nanoseconds stamp);
@@ -187,7 +190,7 @@ class ForestPhysics {
   std::vector<Reaction> reactions_;
   std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};
-  Nanoseconds next_review_{0};  // of all trees or, by tree, of those that bodies come near
+  Nanoseconds next_review_{0};  // of all trees, unless each has its own
   std::size_t steps_{0}, skipped_{0}, coarse_{0};
   std::map<std::uint32_t, std::size_t> refused_;  // branches that found no room, by tree
   std::vector<std::uint32_t> near_;           // trees that bodies may touch in this tick, rising

@@ -73,6 +73,7 @@ void archive(Archive& a, const Points& points, Push& push) {
   a.vector("push force", push.force);
   a.stamp("push until", push.until);
   a.stamp("push from", push.from);
+  a.flag("push whole_tree", push.whole_tree);
 }
 
 void archive(Archive& a, const Points& points, Reaction& reaction) {

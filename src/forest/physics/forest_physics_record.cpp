@@ -33,6 +33,7 @@ void addRecord(Hash& hash, const Push& push) {
   hash.add(push.force);
   for (const Nanoseconds stamp : {push.until, push.from})
     hash.add(static_cast<std::uint64_t>(stamp));
+  if (push.whole_tree) hash.add(std::uint64_t{1});
 }
 
 void addRecord(Hash& hash, const BranchCut& cut) {

@@ -123,6 +123,19 @@ void ForestPhysics::checkRoom(const std::string& what, std::uint32_t tree, int b
                        " are physical already");
 }
 
+void ForestPhysics::checkRoomForTree(const std::string& what, const Tree& tree,
+                                     std::uint32_t id) const {
+  std::size_t others = 0;
+  for (const auto& [other, subtree] : subtrees_)
+    if (other != id) others += subtree.joints().size();
+  const std::size_t branches = tree.skeleton.branches.size();
+  const auto most = static_cast<std::size_t>(settings_.most_branches);
+  if (others + branches > most)
+    throw InvalidInput(what + ": whole_tree: tree " + count(id) + " has " + count(branches) +
+                       " branches, and most_branches = " + count(most) + " leaves room for " +
+                       count(most - std::min(most, others)));
+}
+
 PhysicalSubtree& ForestPhysics::findOrAddSubtree(const StepContext& context, std::uint32_t tree) {
   const auto found = subtrees_.find(tree);
   if (found != subtrees_.end()) return found->second;
@@ -192,6 +205,7 @@ void ForestPhysics::push(const StepContext& context, const Push& push) {
                        [&] { findOrAddSubtree(context, push.point.tree); });
   checkPush(context.layout, subtree.tree(), push);
   checkRoom("push", push.point.tree, push.point.branch);
+  if (push.whole_tree) checkRoomForTree("push", subtree.tree(), push.point.tree);
   subtree.accept();
   pushes_.push_back(push);
   requestReview(context, push.point.tree);

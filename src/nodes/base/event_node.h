@@ -19,6 +19,7 @@
 #include "nodes/base/saved_node.h"
 #include "nodes/base/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
+#include "nodes/shards/shard_check.h"
 #include "ros/conversions/recorded_message.h"
 #include "ros/services/frame_listener.h"
 #include "ros/services/requests.h"
@@ -103,6 +104,22 @@ class EventNode : public SavedNode<Queue, Options> {
   /// Predicts the errors of what the node sends (N9).
   virtual std::vector<PredictedError> predictErrors() const = 0;
 
+  /// Joins the other shards, if there are any; to be called before the node publishes.
+  /// @param what the node simulates. @param messages md5 sums of layout and state.
+  /// @throws InvalidInput if a shard that was there before does not fit.
+  void join(const char* what, const std::string& messages, std::uint64_t layout_hash,
+            std::uint64_t terrain_hash) {
+    if (!options_.shard || options_.shard->count == 1) return;
+    ShardNode own;
+    own.header.frame_id = options_.frame_id;
+    own.shard = options_.shard->index;
+    own.shards = options_.shard->count;
+    own.messages = messages;
+    own.layout_hash = layout_hash;
+    own.terrain_hash = terrain_hash;
+    own.rate = static_cast<std::uint32_t>(options_.state_rate);
+    this->joinShards(std::string(what) + "/shards", std::move(own), options_.shard_wait);
+  }
   /// @param what the node simulates, in diagnostics. @param topic of the markers.
   void start(const char* what, const char* topic, MarkerBuilder& markers) {
     markers_.emplace(handle_, topic, options_.frame_id, markers);
@@ -114,8 +131,6 @@ class EventNode : public SavedNode<Queue, Options> {
     // The server writes its values back to the parameters: they are the checked ones by then.
     tuning_server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(mutex_, private_handle_);
     tuning_server_->setCallback([this](Config& config, std::uint32_t) { onTuning(config); });
-    if (options_.shard && options_.shard->count > 1)
-      this->joinShards(std::string(what) + "/shards", *options_.shard, options_.shard_wait);
     connect();
     this->subscribe("viewer", 10, &EventNode::onViewer);
     this->repeat(options_.markers_rate, &EventNode::sendMarkers);

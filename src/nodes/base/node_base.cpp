@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "nodes/base/freed_memory.h"
+#include "nodes/shards/shard_check.h"
 #include "ros/services/rivals.h"
 
 namespace vegetation_sim {
@@ -38,6 +39,7 @@ void NodeBase::startDiagnostics() {
       ros::WallDuration(1.0), [this, reports = 0](const ros::WallTimerEvent&) mutable {
         if (++reports % RELEASE_PERIOD == 0) releaseFreedMemory();
         acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
+        announceShard();
       });
   beat_timer_ = handle_.createWallTimer(ros::WallDuration(BEAT_PERIOD),
                                         [this](const ros::WallTimerEvent&) { beat(); });
@@ -70,20 +72,28 @@ void NodeBase::openServices() {
   const bool opens = !std::exchange(open_, true);
   for (const auto& advertise : closed_) services_.push_back(advertise());
   closed_.clear();
-  if (!opens || !shards_) return;
-  ShardNode message;
+  if (opens) announceShard();
+}
+
+void NodeBase::announceShard() {
+  if (!shards_) return;
+  ShardNode message = shards_->registry().own();
   message.header.stamp = ros::Time::now();
-  message.shard = shards_->shard().index;
-  message.shards = shards_->shard().count;
-  message.node = shards_->registry().node();
+  message.open = open_;
   shard_publisher_.publish(message);
 }
 
-void NodeBase::joinShards(const std::string& topic, const Shard& shard, double time_limit) {
-  shards_ = std::make_unique<ShardRequests>(private_handle_, shard, time_limit);
+void NodeBase::joinShards(const std::string& topic, ShardNode own, double time_limit) {
+  own.node = private_handle_.getNamespace();
+  const ros::WallTime now = ros::WallTime::now();
+  own.started = ros::Time(now.sec, now.nsec);
+  shards_ = std::make_unique<ShardRequests>(private_handle_, std::move(own), time_limit);
   shard_publisher_ = handle_.advertise<ShardNode>(topic, 1, true);
+  announceShard();
+  requireFit(handle_, topic, shards_->registry());
   const boost::function<void(const ShardNode&)> hear = [this, topic](const ShardNode& message) {
-    acceptInput(topic, [&] { shards_->registry().hear(message); });
+    acceptInput(topic,
+                [&] { shards_->registry().hear(message, std::chrono::steady_clock::now()); });
   };
   subscribers_.push_back(handle_.subscribe<ShardNode>(topic, MOST_SHARDS, hear));
 }
@@ -95,6 +105,10 @@ void NodeBase::addShards(Status& status) {
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         "no node animates these of the " + std::to_string(shards_->shard().count) +
                             " shards: " + missing);
+  const std::string silent = shards_->registry().describeSilent(std::chrono::steady_clock::now());
+  if (!silent.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        "no message for 3 s from these shards: " + silent);
   status.add("Requests passed on to other shards", shards_->sent());
 }
 

@@ -117,11 +117,13 @@ class NodeBase {
     };
   }
   /// Makes the node one of several that share a landscape. @param topic on which they announce
-  /// themselves. @param time_limit for the answers of other nodes, wall time [s].
-  void joinShards(const std::string& topic, const Shard& shard, double time_limit);
+  /// themselves. @param own shard of the node, and what all shards have in common. @param
+  /// time_limit for the answers of other nodes, wall time [s]. @throws InvalidInput that names a
+  /// node which was there before and does not fit.
+  void joinShards(const std::string& topic, ShardNode own, double time_limit);
   /// Returns what passes requests on; null in a node without other shards.
   ShardRequests* shards() { return shards_.get(); }
-  /// Warns of shards without a node, and adds how many requests were passed on.
+  /// Warns of shards without a node and of silent ones, and adds how many requests were passed on.
   void addShards(Status& status);
   /// Advertises the services. A node calls it once time has begun for it, so that a client that
   /// waits for a service waits for that too.
@@ -174,6 +176,7 @@ class NodeBase {
   using SteadyTime = std::chrono::steady_clock::time_point;
   /// Measures how long callbacks have waited.
   void beat();
+  void announceShard();
 
   std::vector<ros::Subscriber> subscribers_, owned_;
   std::unique_ptr<ShardRequests> shards_;

@@ -17,6 +17,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double TRUNK_MARGIN = 30.0;  // around the area [m]
+constexpr double SHORTEST_WAIT = 0.2;  // for the borders of other shards, wall time [s]
 
 }  // namespace
 
@@ -29,33 +30,53 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
+  join("crowd", listMessages<AgentStates, CrowdBorder>(), scenarioHash(),
+       options_.scene.terrain->hash());
+  if (options_.shard) shard_.emplace(crowd_, *options_.shard);
   populate();
-  agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
-  view_publisher_ = handle_.advertise<CrowdView>("agents/view", 100);
-  motions_publisher_ = handle_.advertise<CrowdMotions>("agents/motions", 1, true);
-  publishMotions();
+  if (isPart()) {
+    borders_ = HashedCache<CrowdBorder>(2 * std::size_t{options_.shard->count});
+    inbox_ = std::make_unique<BorderInbox>(handle_, *options_.shard,
+                                           std::max(SHORTEST_WAIT, options_.frame_wait));
+    border_publisher_ = handle_.advertise<CrowdBorder>("agents/border", 100, true);
+  }
+  if (showsAll()) {
+    agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
+    view_publisher_ = handle_.advertise<CrowdView>("agents/view", 100);
+    motions_publisher_ = handle_.advertise<CrowdMotions>("agents/motions", 1, true);
+    publishMotions();
+  } else {
+    parts_publisher_ = handle_.advertise<CrowdPart>("agents/parts", 100);
+  }
   tread_publisher_ = handle_.advertise<TreadEvent>("tread", 10000);
-  start("crowd", "agents/markers", markers_);
+  const std::string markers = "agents/markers";
+  start("crowd", (showsAll() ? markers : private_handle_.resolveName(markers)).c_str(), markers_);
+  publishBorder();
 }
 
 void AgentCrowd::connect() {
   subscribeToOwner("forest/layout", 4, &AgentCrowd::onLayout);
   subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
-  serve("spawn", &AgentCrowd::onSpawn);
-  serve("remove", &AgentCrowd::onRemove);
-  serve("set_goal", &AgentCrowd::onSetGoal);
+  if (isPart() && showsAll()) subscribe("agents/parts", 1000, &AgentCrowd::onPart);
+  connectServices();
   repeat(options_.tf_rate, &AgentCrowd::sendFrames);
 }
 
 // Walkers of the scenario exist from the first tick on, so they are no events.
 void AgentCrowd::populate() {
-  for (const crowd::Spawn& spawn : options_.scene.crowd.spawns) crowd_.spawn(spawn);
+  std::uint32_t id = 0;
+  for (const crowd::Spawn& spawn : options_.scene.crowd.spawns) crowd_.spawn(spawn, id++);
   updateNextId();
+  if (!shard_) return;
+  crowd_.takeOutside(shard_->owners());
+  shard_->clear();
+  border_ = crowd::archiveBorder(shard_->endTick());
 }
 
 // Ids of walkers that wait for their stamps are taken too.
 void AgentCrowd::updateNextId() {
-  next_id_ = crowd_.snapshot().next_id;
+  next_id_ = std::max(crowd_.snapshot().next_id,
+                      static_cast<std::uint32_t>(options_.scene.crowd.spawns.size()));
   inputs_.each([this](const CrowdEvent& event) {
     if (event.kind == CrowdEvent::SPAWN) next_id_ = std::max(next_id_, event.id + 1);
   });
@@ -71,13 +92,18 @@ void AgentCrowd::tick(std::int64_t) {
   const Nanoseconds stamp = clock_.stamp();
   if (!begun_ && !options_.replay) publishBeginning(stamp);
   begun_ = true;
-  if (!options_.replay) followRobots(stamp);
+  if (!options_.replay) {
+    followRobots(stamp);
+    hearBorders(stamp);
+  }
   applyInputs(stamp);
   updateNextId();
+  if (shard_) shard_->beginTick();
   crowd_.advance(stamp);
   publishAgents(stamp);
   publishView(stamp);
   publishTreads(stamp);
+  endTickOfShard();
 }
 
 // A replay resets itself at the beginning of this run by this event.
@@ -105,6 +131,9 @@ void AgentCrowd::apply(CrowdEvent& event) {
     }
     case CrowdEvent::RESET:
       resetCrowd();
+      break;
+    case BORDER:
+      applyBorder(event.input_hash);
       break;
     default:
       applyToCrowd(event, crowd_);
@@ -164,6 +193,11 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 
 void AgentCrowd::restart() {
   resetCrowd();
+  if (inbox_) inbox_->clear();
+  parts_.clear();
+  last_parts_.clear();
+  joined_ = 0;
+  publishBorder();
   begun_ = false;
 }
 

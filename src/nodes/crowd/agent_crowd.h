@@ -4,7 +4,10 @@
 
 #include <nav_msgs/OccupancyGrid.h>
 #include <tf2_ros/transform_broadcaster.h>
+#include <vegetation_sim/AgentStates.h>
+#include <vegetation_sim/CrowdBorder.h>
 #include <vegetation_sim/CrowdEvent.h>
+#include <vegetation_sim/CrowdPart.h>
 #include <vegetation_sim/ForestLayout.h>
 #include <vegetation_sim/RemoveAgents.h>
 #include <vegetation_sim/SetAgentGoal.h>
@@ -13,10 +16,14 @@
 
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "crowd/agents/crowd_shard.h"
 #include "nodes/base/event_node.h"
+#include "nodes/crowd/border_inbox.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
 #include "nodes/markers/crowd_markers.h"
@@ -45,6 +52,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void enqueueHash(std::uint8_t kind, std::uint64_t hash);
 
   // Time.
+  static constexpr std::uint8_t BORDER = 10;    // kind of events: see CrowdEvent
+  static constexpr std::size_t MOST_PARTS = 2;  // ticks that wait for people of other shards
   void populate();
   void updateNextId();
   /// Number of walkers that wait for their stamps.
@@ -78,9 +87,27 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::function<void()> readInput(CrowdEvent& event, const std::string& bytes,
                                   Nanoseconds shift) override;
 
+  // Shards.
+  std::uint64_t scenarioHash() const;
+  void connectServices();
+  std::vector<std::uint32_t> ownersOfPlace(const SpawnAgents::Request& request);
+  std::uint32_t takeId();
+  void hearBorders(Nanoseconds stamp);
+  void applyBorder(std::uint64_t hash);
+  void endTickOfShard();
+  void publishBorder();
+  void onPart(const CrowdPart& message);
+  void addPart(Nanoseconds stamp, std::uint32_t shard, const AgentStates& people);
+  void publishJoined(const AgentStates& all);
+  /// One node shows the people of all shards.
+  bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
+  bool isPart() const { return options_.shard && options_.shard->count > 1; }
+
   // Outputs.
+  AgentStates agentsAt(Nanoseconds stamp) const;
   void publishAgents(Nanoseconds stamp);
   void publishView(Nanoseconds stamp);
+  void sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp);
   void publishMotions();
   void publishTreads(Nanoseconds stamp);
   void publishTread(const TreadEvent& event);
@@ -103,6 +130,14 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>& ids);
 
   crowd::Crowd crowd_;
+  std::optional<crowd::CrowdShard> shard_;
+  std::unique_ptr<BorderInbox> inbox_;  // null without other shards
+  HashedCache<CrowdBorder> borders_;
+  std::string border_;                                 // after the last tick
+  using Parts = std::map<std::uint32_t, AgentStates>;  // by shard
+  std::map<Nanoseconds, Parts> parts_;                 // by stamp, that wait for other shards
+  Parts last_parts_;
+  Nanoseconds joined_{0};  // stamp of the last people of all shards
   CrowdMarkers markers_;
   CrowdRobots robots_;
   std::uint32_t next_id_{0};  // of the next walker that a request adds
@@ -126,7 +161,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher agents_publisher_, view_publisher_, motions_publisher_, tread_publisher_;
+  ros::Publisher agents_publisher_, view_publisher_, motions_publisher_, tread_publisher_,
+      border_publisher_, parts_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -116,7 +116,7 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
     event.kind = CrowdEvent::SPAWN;
     event.header.stamp = stamp;
     for (const crowd::Spawn& spawn : all) {
-      event.id = next_id_++;
+      event.id = takeId();
       event.spawn = toMsg(spawn);
       enqueue(event);
       response.ids.push_back(event.id);

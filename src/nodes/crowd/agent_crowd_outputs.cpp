@@ -21,22 +21,42 @@ std::string AgentCrowd::nameOf(const crowd::Walker& walker) const {
   return options_.frame_prefix + "walker_" + std::to_string(walker.id);
 }
 
-void AgentCrowd::publishAgents(Nanoseconds stamp) {
-  if (agents_publisher_.getNumSubscribers() == 0) return;
+AgentStates AgentCrowd::agentsAt(Nanoseconds stamp) const {
   AgentStates message;
   message.header.stamp = toStamp(stamp);
   message.header.frame_id = options_.frame_id;
-  message.hash = crowd_.snapshot().hash();
+  message.hash = shard_ ? crowd_.snapshot().walkersHash() : crowd_.snapshot().hash();
   for (const crowd::Walker& walker : crowd_.walkers())
     message.agents.push_back(toMsg(walker, crowd_.terrain()));
+  return message;
+}
+
+void AgentCrowd::publishAgents(Nanoseconds stamp) {
+  if (isPart() && showsAll()) {
+    if (!recovers() && stamp > joined_) addPart(stamp, 0, agentsAt(stamp));
+    return;
+  }
+  if (isPart()) {
+    CrowdPart part;
+    part.shard = options_.shard->index;
+    part.people = agentsAt(stamp);
+    parts_publisher_.publish(part);
+    return;
+  }
+  if (agents_publisher_.getNumSubscribers() == 0) return;
+  const AgentStates message = agentsAt(stamp);
   state_bytes_ += ros::serialization::serializationLength(message);
   agents_publisher_.publish(message);
 }
 
 // Displays read this, sensors and plants `agents`, which does not depend on who reads it.
 void AgentCrowd::publishView(Nanoseconds stamp) {
-  if (view_publisher_.getNumSubscribers() == 0) return;
-  CrowdView message = toView(crowd_.walkers(), crowd_.terrain());
+  if (isPart() || view_publisher_.getNumSubscribers() == 0) return;
+  sendView(crowd_.walkers(), stamp);
+}
+
+void AgentCrowd::sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp) {
+  CrowdView message = toView(walkers, crowd_.terrain());
   message.header.stamp = toStamp(stamp);
   message.header.frame_id = options_.frame_id;
   view_bytes_ += ros::serialization::serializationLength(message);
@@ -169,6 +189,8 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Robots without a transform", robots_.missing().size());
   status.add("Transforms too late for their tick", robots_.late());
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
+  status.add("People who wait for another shard", shard_ ? shard_->waiting() : 0);
+  status.add("Borders of shards too late for their tick", inbox_ ? inbox_->late() : 0);
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);
   status.add("View sent [B]", view_bytes_);

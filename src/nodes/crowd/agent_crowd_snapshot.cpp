@@ -37,6 +37,16 @@ void AgentCrowd::archive(Archive& a, Walked& walked) {
 }
 
 std::uint64_t AgentCrowd::sceneHash() const {
+  Hash hash;
+  const std::uint64_t whole = scenarioHash();
+  if (!options_.shard) return whole;
+  for (const std::uint64_t part :
+       {whole, std::uint64_t{options_.shard->index}, std::uint64_t{options_.shard->count}})
+    hash.add(part);
+  return hash.value();
+}
+
+std::uint64_t AgentCrowd::scenarioHash() const {
   const CrowdScene& scene = options_.scene;
   Hash hash;
   hash.add(scene.seed);
@@ -62,6 +72,11 @@ void AgentCrowd::writeState(Archive& a) const {
   archive(a, walked);
   CrowdRobots::Seen robots = robots_.seen();
   CrowdRobots::archive(a, robots);
+  if (!shard_) return;
+  crowd::CrowdShard shard = *shard_;
+  shard.archive(a);
+  std::string border = border_;
+  a.text("border", border, LARGEST_SNAPSHOT);
 }
 
 CheckedState AgentCrowd::readState(Archive& a) {
@@ -74,6 +89,12 @@ CheckedState AgentCrowd::readState(Archive& a) {
   archive(a, walked);
   CrowdRobots::Seen robots;
   CrowdRobots::archive(a, robots);
+  std::optional<crowd::CrowdShard> shard = shard_;
+  std::string border;
+  if (shard) {
+    shard->archive(a);
+    a.text("border", border, LARGEST_SNAPSHOT);
+  }
   const crowd::CrowdSnapshot read = crowd::Crowd::readArchived(std::move(state), a.shift());
   std::optional<ForestLayout> trees;
   if (!layout.empty()) trees = messageOf<ForestLayout>(layout);
@@ -89,11 +110,15 @@ CheckedState AgentCrowd::readState(Archive& a) {
             crowd_.restore(read);
             trodden_ = walked;
             robots_.restore(robots);
+            shard_ = shard;
+            border_ = border;
+            publishBorder();
             options_.tuning = read.settings;
             begun_ = true;
             updateNextId();
             queueNewerInputs();
-            publishAgents(read.stamp);  // subscribers that take people of the tick before need them
+            // Subscribers that take people of the tick before need them.
+            if (!isPart()) publishAgents(read.stamp);
           }};
 }
 
@@ -113,6 +138,8 @@ std::string AgentCrowd::inputOf(const CrowdEvent& event) const {
     if (const ForestLayout* found = layouts_.find(event.input_hash)) return bytesOf(*found);
   if (event.kind == CrowdEvent::COVER)
     if (const auto* found = covers_.find(event.input_hash)) return bytesOf(*found);
+  if (event.kind == BORDER)
+    if (const CrowdBorder* found = borders_.find(event.input_hash)) return bytesOf(*found);
   return {};
 }
 
@@ -125,6 +152,8 @@ std::function<void()> AgentCrowd::readInput(CrowdEvent& event, const std::string
     return [this, hash, cover = messageOf<nav_msgs::OccupancyGrid>(bytes)] {
       covers_.keep(hash, cover);
     };
+  if (event.kind == BORDER)
+    return [this, hash, border = messageOf<CrowdBorder>(bytes)] { borders_.keep(hash, border); };
   return [] {};
 }
 

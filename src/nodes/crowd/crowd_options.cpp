@@ -92,6 +92,7 @@ CrowdOptions loadCrowdOptions(const ros::NodeHandle& private_handle) {
   out.motions = out.scene.motions;
   parameters.frame("frame_prefix", out.frame_prefix, true);
   describe(parameters, out);
+  readShard(private_handle, parameters, out);
   YAML::Node list;
   if (parameters.list("robots", list)) {
     YamlSection section(list, private_handle.getNamespace(), parameters.faults());

@@ -59,6 +59,8 @@ ForestAnimator::ForestAnimator(const ros::NodeHandle& handle, const ros::NodeHan
   forces_publisher_ = handle_.advertise<ContactForces>("forest/forces", 1000);
   grabs_publisher_ = handle_.advertise<GrabStatuses>("forest/grabs", 100, true);
   breaks_publisher_ = handle_.advertise<BranchBreak>("forest/breaks", 1000);
+  join("forest", listMessages<ForestLayout, ForestState>(), forest_->layoutHash(),
+       options_.scene.terrain->hash());
   publishLayout();
   start("forest", "forest/markers", markers_);
   cutters_.clear();  // after a checkpoint: how the tools have moved since then is unknown

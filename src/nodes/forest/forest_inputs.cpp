@@ -109,8 +109,8 @@ void applyInteraction(const ForestInput& input, forest::Forest& forest) {
       forest.release(input.grab.id);
       break;
     case ForestInput::FORCE:
-      forest.push(
-          {input.push.point, input.push.force, input.stamp + input.push.until, input.stamp});
+      forest.push({input.push.point, input.push.force, input.stamp + input.push.until, input.stamp,
+                   input.push.whole_tree});
       break;
     case ForestInput::CUT:
       forest.cut(input.cut);

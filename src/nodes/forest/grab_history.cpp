@@ -8,6 +8,28 @@
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
+namespace {
+
+const char* describe(std::uint8_t reason) {
+  switch (reason) {
+    case GrabStatus::RELEASED:
+      return " has been released";
+    case GrabStatus::LEASE_EXPIRED:
+      return " has ended: its lease expired";
+    case GrabStatus::TREES_CHANGED:
+      return " has ended: the trees were grown anew";
+    case GrabStatus::RESET:
+      return " has ended by a reset";
+    case GrabStatus::REFUSED:
+      return " never began: see forest/grabs";
+    case GrabStatus::BRANCH_BROKEN:
+      return " has ended: the branch, or one that bears it, broke or was cut off";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
 
 void GrabHistory::explainAll(std::uint8_t reason) {
   for (const auto& entry : held_) explain(entry.first, reason);
@@ -52,6 +74,12 @@ bool GrabHistory::update(const forest::HeldGrabs& held, Nanoseconds stamp) {
     changed_ = changed_ || begins;
   }
   return std::exchange(changed_, false);
+}
+
+std::string GrabHistory::describeEnd(std::uint32_t id) const {
+  for (const GrabStatus& status : ended_)
+    if (status.grab.id == id) return describe(status.status);
+  return {};
 }
 
 GrabHistory::State GrabHistory::state() const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "forest/forest.h"
@@ -28,6 +29,9 @@ class GrabHistory {
   /// After a tick: compares the grabs in force with those of the last call. @return whether any
   /// grab has begun or ended.
   bool update(const forest::HeldGrabs& held, Nanoseconds stamp);
+  /// Returns why a grab has ended, in words that follow "id = 1"; empty if that is not known, or
+  /// not any more.
+  std::string describeEnd(std::uint32_t id) const;
   /// The part of a saved state that is kept besides the grabs in force.
   struct State {
     std::map<std::uint32_t, Nanoseconds> since;  ///< of the grabs in force

@@ -249,10 +249,10 @@ GrabManager::Request& GrabManager::find(std::uint32_t id) {
   std::string known;
   for (const auto& entry : requests_)
     known += (known.empty() ? "" : ", ") + std::to_string(entry.first);
-  throw InvalidInput(
-      "id = " + std::to_string(id) +
-          (known.empty() ? " is unknown; nothing is held" : " is unknown; held are " + known),
-      FaultCode::UNKNOWN);
+  const std::string end = history_.describeEnd(id);
+  throw InvalidInput("id = " + std::to_string(id) + (end.empty() ? " is unknown" : end) +
+                         (known.empty() ? "; nothing is held" : "; held are " + known),
+                     FaultCode::UNKNOWN);
 }
 
 const forest::Grab& GrabManager::grabOf(std::uint32_t id) const {
@@ -323,6 +323,7 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   BranchForce asked;
   asked.duration = request.duration;
   asked.force = request.force.vector;
+  asked.whole_tree = request.whole_tree;
   event.push = fromMsg(asked);
   event.push.point = place.at;
   const std::string& frame = request.force.header.frame_id;
@@ -333,6 +334,8 @@ std::string GrabManager::push(const ApplyForce::Request& request, ApplyForce::Re
   }
   forest::checkPush(node_.forest.layout(), *grown(place.at.tree), event.push);
   checkRoom("push", place, request.stamp);
+  if (request.whole_tree)
+    node_.forest.snapshot().physics.checkRoomForTree("push", *grown(place.at.tree), place.at.tree);
   enqueue(event);
   response.tree = place.at.tree;
   response.branch = static_cast<std::uint32_t>(place.at.branch);

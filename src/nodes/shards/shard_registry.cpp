@@ -2,32 +2,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/shards/shard_registry.h"
 
+#include <tuple>
+
+#include "vegetation_sim/core/config/faults.h"
+
 namespace vegetation_sim {
+namespace {
+
+constexpr std::chrono::seconds LONGEST_SILENCE{3};
+
+}  // namespace
 
 std::string describeShard(std::uint32_t shard, std::uint32_t count) {
   return "shard " + std::to_string(shard) + " of " + std::to_string(count);
 }
 
-void ShardRegistry::hear(const ShardNode& message) {
-  if (message.node == node_) return;
-  if (message.shards != shard_.count || message.shard >= shard_.count)
-    throw InvalidInput(message.node + " is " + describeShard(message.shard, message.shards) +
-                       "; allowed is a shard from 0 to " + std::to_string(shard_.count - 1) +
-                       " of " + std::to_string(shard_.count));
-  if (message.shard == shard_.index)
-    throw InvalidInput(message.node + " is " + describeShard(message.shard, message.shards) +
-                       ", as this node, " + node_ + ", is; a shard has one node");
+void ShardRegistry::checkFit(const ShardNode& message) const {
+  const std::string who = message.node + " is " + describeShard(message.shard, message.shards);
+  if (message.shards != own_.shards || message.shard >= own_.shards)
+    throw InvalidInput(who + "; allowed is a shard from 0 to " + std::to_string(own_.shards - 1) +
+                       " of " + std::to_string(own_.shards));
+  const auto refuse = [&](const char* what, const std::string& value, const std::string& allowed) {
+    throw InvalidInput(who + " with " + what + " = " + value + "; allowed is that of this node, " +
+                       own_.node + ", " + allowed);
+  };
+  if (message.messages != own_.messages)
+    refuse("the version of messages", message.messages, own_.messages);
+  if (message.terrain_hash != own_.terrain_hash)
+    refuse("the hash of the terrain", std::to_string(message.terrain_hash),
+           std::to_string(own_.terrain_hash));
+  if (message.layout_hash != own_.layout_hash)
+    refuse("the hash of the layout", std::to_string(message.layout_hash),
+           std::to_string(own_.layout_hash));
+  if (message.rate != own_.rate)
+    refuse("state_rate", std::to_string(message.rate), std::to_string(own_.rate));
+  if (message.shard == own_.shard)
+    throw InvalidInput(who + ", as this node, " + own_.node + ", is; a shard has one node");
+}
+
+void ShardRegistry::hear(const ShardNode& message, SteadyTime now) {
+  if (message.node == own_.node) return;
+  checkFit(message);
   const std::lock_guard<std::mutex> lock(mutex_);
+  heard_[message.shard] = now;
+  if (!message.open) return;
   auto& peer = peers_[message.shard];
+  if (peer && peer->node == message.node && peer->started == message.started) return;
   peer = std::make_shared<Peer>();  // a node that has started again owes no answers
   peer->node = message.node;
+  peer->started = message.started;
+}
+
+bool ShardRegistry::isEarlier(const ShardNode& message) const {
+  return std::tie(message.started, message.node) < std::tie(own_.started, own_.node);
 }
 
 std::shared_ptr<ShardRegistry::Peer> ShardRegistry::find(std::uint32_t shard) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = peers_.find(shard);
   if (found == peers_.end())
-    throw InvalidInput(describeShard(shard, shard_.count) + " is animated by no node",
+    throw InvalidInput(describeShard(shard, own_.shards) + " is animated by no node",
                        FaultCode::NOT_AVAILABLE);
   return found->second;
 }
@@ -35,9 +69,18 @@ std::shared_ptr<ShardRegistry::Peer> ShardRegistry::find(std::uint32_t shard) co
 std::string ShardRegistry::describeMissing() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string out;
-  for (std::uint32_t shard = 0; shard < shard_.count; ++shard)
-    if (shard != shard_.index && peers_.count(shard) == 0)
+  for (std::uint32_t shard = 0; shard < own_.shards; ++shard)
+    if (shard != own_.shard && peers_.count(shard) == 0)
       out += (out.empty() ? "" : ", ") + std::to_string(shard);
+  return out;
+}
+
+std::string ShardRegistry::describeSilent(SteadyTime now) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::string out;
+  for (const auto& [shard, peer] : peers_)
+    if (now - heard_.at(shard) > LONGEST_SILENCE)
+      out += (out.empty() ? "" : ", ") + std::to_string(shard) + " (" + peer->node + ")";
   return out;
 }
 

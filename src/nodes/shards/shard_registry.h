@@ -5,12 +5,12 @@
 #include <vegetation_sim/ShardNode.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "core/config/shard.h"
 
@@ -20,29 +20,39 @@ namespace vegetation_sim {
 /// thread.
 class ShardRegistry {
  public:
+  using SteadyTime = std::chrono::steady_clock::time_point;
   struct Peer {
     std::string node;
+    ros::Time started;
     std::atomic<int> overdue{0};  ///< requests that wait for it beyond their time limit
   };
 
-  /// @param node name of the node of `shard` itself.
-  ShardRegistry(const Shard& shard, std::string node) : shard_(shard), node_(std::move(node)) {}
+  /// @param own announcement of the node of this shard.
+  explicit ShardRegistry(ShardNode own) : own_(std::move(own)) {}
 
-  const Shard& shard() const { return shard_; }
-  const std::string& node() const { return node_; }
+  Shard shard() const { return {own_.shard, own_.shards}; }
+  const std::string& node() const { return own_.node; }
+  const ShardNode& own() const { return own_; }
   /// Takes an announcement; the latest one of a shard counts.
-  /// @throws InvalidInput that names the node if it has another number of shards or this shard.
-  void hear(const ShardNode& message);
+  /// @throws InvalidInput that names the node if it does not fit: it has this shard, another number
+  /// of shards, or another layout, terrain, rate or version of messages.
+  void hear(const ShardNode& message, SteadyTime now);
+  /// @throws InvalidInput as hear() does.
+  void checkFit(const ShardNode& message) const;
+  /// Returns whether the node of an announcement started before this one.
+  bool isEarlier(const ShardNode& message) const;
   /// @throws InvalidInput that names the shard if no node has announced it.
   std::shared_ptr<Peer> find(std::uint32_t shard) const;
   /// Lists the other shards that no node has announced: "1, 3".
   std::string describeMissing() const;
+  /// Lists the shards that have announced themselves, but not in the last 3 s: "1 (/forest_1)".
+  std::string describeSilent(SteadyTime now) const;
 
  private:
-  const Shard shard_;
-  const std::string node_;
+  const ShardNode own_;
   mutable std::mutex mutex_;
   std::map<std::uint32_t, std::shared_ptr<Peer>> peers_;
+  std::map<std::uint32_t, SteadyTime> heard_;
 };
 
 /// Returns "shard 1 of 4".

@@ -5,6 +5,7 @@
 #include <boost/make_shared.hpp>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 namespace vegetation_sim {
 namespace {
@@ -43,9 +44,9 @@ std::string formatSeconds(double seconds) {
 }  // namespace
 
 // The queue stays, since threads of roscpp may still refer to that of a node that has ended.
-ShardRequests::ShardRequests(const ros::NodeHandle& private_handle, const Shard& shard,
+ShardRequests::ShardRequests(const ros::NodeHandle& private_handle, ShardNode own,
                              double time_limit)
-    : registry_(shard, private_handle.getNamespace()),
+    : registry_(std::move(own)),
       time_limit_(time_limit),
       node_queue_(*private_handle.getCallbackQueue()),
       queue_(*new ros::CallbackQueue),

@@ -35,15 +35,15 @@ struct ShardReply {
 /// other shards go there, so that none is passed on twice.
 class ShardRequests {
  public:
-  /// @param private_handle has the queue of the node's thread. @param time_limit within which
-  /// another shard has to answer, wall time [s].
-  ShardRequests(const ros::NodeHandle& private_handle, const Shard& shard, double time_limit);
+  /// @param private_handle has the queue of the node's thread. @param own announcement of the node.
+  /// @param time_limit within which another shard has to answer, wall time [s].
+  ShardRequests(const ros::NodeHandle& private_handle, ShardNode own, double time_limit);
   ~ShardRequests() { stop(); }
   ShardRequests(const ShardRequests&) = delete;
   ShardRequests& operator=(const ShardRequests&) = delete;
 
   ShardRegistry& registry() { return registry_; }
-  const Shard& shard() const { return registry_.shard(); }
+  Shard shard() const { return registry_.shard(); }
   /// Handle of the services whose callbacks run in the threads of this class.
   ros::NodeHandle& workers() { return workers_; }
   /// Ends all waiting. To be called once the node's queue is closed and before the services of

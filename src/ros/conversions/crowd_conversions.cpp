@@ -15,7 +15,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0};
+constexpr Range PLACES{-1e7, 1e7}, HEIGHTS{0.1, 5.0}, TURN_RATES{-100.0, 100.0};
 
 geometry_msgs::Point pointOf(const crowd::Point& p, double z) {
   return toPoint(Vec3(p.x, p.y, z));
@@ -35,7 +35,9 @@ void check(const AgentState& agent, Faults& faults) {
   const auto place = [&](const char* name, Vec3 at) { checker.vector(name, at, "m", PLACES); };
   place("position", fromMsg(agent.pose.position));
   double height = agent.height, gait = agent.gait;
+  double turn_rate = agent.turn_rate;
   checker.number("height", height, "m", HEIGHTS);
+  checker.number("turn_rate", turn_rate, "rad/s", TURN_RATES);
   checker.number("gait", gait, "", PLACES);
   Vec3 velocity = fromMsg(agent.velocity);
   checker.vector("velocity", velocity, "m/s", PLACES);
@@ -57,6 +59,7 @@ AgentState toMsg(const crowd::Walker& w, const terrain::HeightMap& terrain) {
   out.pose.orientation.z = half.sin;
   out.pose.orientation.w = half.cos;
   out.velocity = vectorOf(w.velocity);
+  out.turn_rate = w.turn_rate;
   out.radius = w.radius;
   out.height = w.height;
   out.gait = w.gait;
@@ -80,6 +83,7 @@ crowd::Walker fromMsg(const AgentState& message) {
   const auto& q = message.pose.orientation;
   out.heading = 2.0 * arcTangent(q.z, q.w);
   out.velocity = planOf(message.velocity);
+  out.turn_rate = message.turn_rate;
   out.radius = message.radius;
   out.height = message.height;
   out.gait = message.gait;

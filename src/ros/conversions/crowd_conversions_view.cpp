@@ -11,11 +11,12 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double VIEW_STEP = 1e-3;      // of a position [m] and a velocity [m/s]
-constexpr double HEIGHT_STEP = 1e-4;    // of the height of a body [m]
-constexpr double FRACTIONS = 65536.0;   // steps of a turn or a cycle
-constexpr double GROUND_STEPS = 65535;  // largest number of steps above the lowest ground
-constexpr double ORIGIN_GRID = 1000.0;  // grid of origins [m]: rounding is equal in all messages
+constexpr double VIEW_STEP = 1e-3;        // of a position [m] and a velocity [m/s]
+constexpr double HEIGHT_STEP = 1e-4;      // of the height of a body [m]
+constexpr double TURN_STEP = 1.0 / 80.0;  // of a rate of turning [rad/s]
+constexpr double FRACTIONS = 65536.0;     // steps of a turn or a cycle
+constexpr double GROUND_STEPS = 65535;    // largest number of steps above the lowest ground
+constexpr double ORIGIN_GRID = 1000.0;    // grid of origins [m]: rounding is equal in all messages
 constexpr Range VIEW_PLACES{-1e7, 1e7}, BODY_HEIGHTS{0.1, 5.0}, GROUND_STEP_RANGE{1e-3, 400.0};
 
 /// Returns the nearest whole number of steps, or the nearest one that the type has.
@@ -63,6 +64,9 @@ void append(const crowd::Walker& w, CrowdView& out) {
   out.y.push_back(stepsOf<std::int32_t>(w.position.y - out.origin_y, VIEW_STEP));
   out.heading.push_back(fractionSteps(w.heading / (2.0 * PI)));
   out.gait.push_back(fractionSteps(w.gait));
+  // The limits are symmetric, so that turns to both sides are rounded alike.
+  out.turn_rate.push_back(
+      std::max<std::int8_t>(stepsOf<std::int8_t>(w.turn_rate, TURN_STEP), -127));
   out.height.push_back(stepsOf<std::uint16_t>(w.height, HEIGHT_STEP));
   out.velocity_x.push_back(stepsOf<std::int16_t>(w.velocity.x, VIEW_STEP));
   out.velocity_y.push_back(stepsOf<std::int16_t>(w.velocity.y, VIEW_STEP));
@@ -121,6 +125,7 @@ void checkSizes(const CrowdView& m, Faults& faults) {
   check("ground", m.ground.size(), 1);
   check("heading", m.heading.size(), 1);
   check("gait", m.gait.size(), 1);
+  check("turn_rate", m.turn_rate.size(), 1);
   check("height", m.height.size(), 1);
   check("velocity_x", m.velocity_x.size(), 1);
   check("velocity_y", m.velocity_y.size(), 1);
@@ -154,6 +159,7 @@ crowd::Walker walkerAt(const CrowdView& m, std::size_t i) {
   out.velocity = {VIEW_STEP * m.velocity_x[i], VIEW_STEP * m.velocity_y[i]};
   out.heading = 2.0 * PI * m.heading[i] / FRACTIONS;
   out.gait = m.gait[i] / FRACTIONS;
+  out.turn_rate = TURN_STEP * m.turn_rate[i];
   out.height = HEIGHT_STEP * m.height[i];
   for (std::size_t side = 0; side < 2; ++side) {
     const crowd::Point at{VIEW_STEP * m.feet_x[2 * i + side], VIEW_STEP * m.feet_y[2 * i + side]};

@@ -52,6 +52,7 @@ forest::Push fromMsg(const BranchForce& message) {
   FieldChecker("", faults).number("duration", duration, "s", {0.001, 3600.0});
   faults.throwIfAny();
   out.until = fromSeconds(duration);
+  out.whole_tree = message.whole_tree;
   return out;
 }
 
@@ -62,6 +63,7 @@ BranchForce toMsg(const forest::Push& push) {
   out.along = push.point.along;
   out.force = toVector(push.force);
   out.duration = secondsBetween(push.from, push.until);
+  out.whole_tree = push.whole_tree;
   return out;
 }
 

@@ -3,15 +3,19 @@
 #include "ros/params/mesh_file.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "core/config/files.h"
 #include "ros/params/resources.h"
@@ -19,9 +23,13 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;  // [B]
-constexpr std::size_t MOST_CORNERS = 16000000;         // and as many faces
-constexpr int MOST_DEPTH = 256;                        // of nodes in nodes
+constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;    // [B]
+constexpr std::size_t MOST_CORNERS = 16000000;           // and as many faces
+constexpr int MOST_DEPTH = 256;                          // of nodes in nodes
+constexpr std::size_t LARGEST_MATERIAL_FILE = 1U << 20;  // [B]
+constexpr std::size_t MOST_MATERIALS = 1000;             // with a colour or a texture
+constexpr float DEFAULT_GREY = 0.6F;                     // of a material that assimp has not found
+constexpr std::size_t LONGEST_NAME = 500;                // of a texture [characters]
 constexpr std::array<const char*, 4> ENDINGS{"dae", "obj", "ply", "stl"};
 
 /// @return the ending of a mesh file in small letters. @throws InvalidInput if it is another one.
@@ -70,6 +78,62 @@ void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
   }
 }
 
+/// Gives assimp the material files in the folder of a mesh, and no others: assimp would open
+/// whatever a mesh names.
+class MaterialFiles : public Assimp::IOSystem {
+ public:
+  MaterialFiles(std::filesystem::path folder, FindFile find)
+      : folder_(std::move(folder)), find_(std::move(find)) {}
+
+  bool Exists(const char* file) const override { return !read(file).empty(); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char* /*mode*/) override {
+    const std::string text = read(file);
+    if (text.empty()) return nullptr;
+    auto* bytes = new std::uint8_t[text.size()];  // the stream deletes them
+    std::copy(text.begin(), text.end(), bytes);
+    return new Assimp::MemoryIOStream(bytes, text.size(), true);
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  // Returns nothing for files that are not there, too large or not of this folder.
+  std::string read(const std::string& file) const {
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (!find_ || std::filesystem::path(name).extension() != ".mtl") return {};
+    try {
+      const std::string text = readFile(find_((folder_ / name).string()), LARGEST_MATERIAL_FILE);
+      return text.find('\0') == std::string::npos ? text : std::string();
+    } catch (const InvalidInput&) {
+      return {};
+    }
+  }
+
+  std::filesystem::path folder_;
+  FindFile find_;
+};
+
+/// Returns the material of a mesh, and whether it has a colour or a texture of its own.
+std::pair<canopy::FaceMaterial, bool> readMaterial(const aiMaterial& material) {
+  canopy::FaceMaterial out;
+  aiString name, texture;
+  material.Get(AI_MATKEY_NAME, name);
+  if (std::string(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) return {out, false};
+  aiColor3D colour;
+  const bool coloured = material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS;
+  const std::array<float, 3> parts{colour.r, colour.g, colour.b};
+  const bool is_default = parts == std::array<float, 3>{DEFAULT_GREY, DEFAULT_GREY, DEFAULT_GREY};
+  for (int i = 0; coloured && i < 3; ++i) {
+    const auto part = static_cast<double>(parts[static_cast<std::size_t>(i)]);
+    out.colour[i] = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 1.0;
+  }
+  const bool textured = material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS;
+  if (textured) out.texture = std::string(texture.C_Str()).substr(0, LONGEST_NAME);
+  // Many tools write a black colour beside a texture.
+  if (textured && out.colour.maxCoeff() < 0.05) out.colour = Vec3::Ones();
+  return {out, (coloured && !is_default) || !out.texture.empty()};
+}
+
 /// Collects the triangles of a scene, each where its node puts it.
 class Collector {
  public:
@@ -77,12 +141,25 @@ class Collector {
   Collector(const aiScene& scene, const std::string& rigid) : scene_(scene), rigid_(rigid) {}
 
   canopy::LeafMesh collect() {
+    readMaterials();
     if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4(), 0);
     if (!textured_) out_.uv.clear();
+    if (!has_normals_) out_.normals.clear();
+    if (out_.materials.empty()) out_.material.clear(), out_.normals.clear();
     return std::move(out_);
   }
 
  private:
+  void readMaterials() {
+    number_.assign(scene_.mNumMaterials, 0);
+    for (unsigned i = 0; i < scene_.mNumMaterials && out_.materials.size() < MOST_MATERIALS; ++i) {
+      auto [material, is_own] = readMaterial(*scene_.mMaterials[i]);
+      if (!is_own) continue;
+      out_.materials.push_back(std::move(material));
+      number_[i] = static_cast<std::uint16_t>(out_.materials.size());
+    }
+  }
+
   void add(const aiNode& node, const aiMatrix4x4& above, int depth) {
     if (depth > MOST_DEPTH)
       throw InvalidInput("nodes in nodes, more than " + std::to_string(MOST_DEPTH) + " deep");
@@ -100,15 +177,24 @@ class Collector {
     const auto first = static_cast<std::uint32_t>(out_.vertices.size());
     const aiVector3D* uv = mesh.mTextureCoords[0];
     textured_ = textured_ && uv;
+    has_normals_ = has_normals_ && mesh.mNormals;
+    const aiMatrix3x3 turn(here);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D v = here * mesh.mVertices[i];
       out_.vertices.emplace_back(v.x, v.y, v.z);
+      if (has_normals_) {
+        const aiVector3D n = turn * mesh.mNormals[i];
+        out_.normals.emplace_back(n.x, n.y, n.z);
+      }
       out_.uv.push_back(uv ? std::array<double, 2>{uv[i].x, uv[i].y} : std::array<double, 2>{});
     }
     const bool rigid = canopy::isRigidName(mesh.mName.C_Str(), rigid_) ||
                        canopy::isRigidName(node, rigid_) ||
                        canopy::isRigidName(materialOf(mesh), rigid_);
+    const std::uint16_t material =
+        mesh.mMaterialIndex < number_.size() ? number_[mesh.mMaterialIndex] : std::uint16_t{0};
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) add(mesh.mFaces[i], first, rigid);
+    out_.material.resize(out_.faces.size(), material);
   }
 
   // Splits a convex face into a fan of triangles; points and lines have none. The splitting by
@@ -132,19 +218,23 @@ class Collector {
 
   const aiScene& scene_;
   const std::string& rigid_;
-  bool textured_{true};
+  bool textured_{true}, has_normals_{true};
+  std::vector<std::uint16_t> number_;  // 1 + index in out_.materials of each material; 0: none
   canopy::LeafMesh out_;
 };
 
 }  // namespace
 
-canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes, const std::string& rigid) {
+canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes, const std::string& rigid,
+                          const FindFile& find) {
   const std::string ending = endingOf(name);
-  const std::string bytes = readFile(resolveFile(name), LARGEST_MESH_FILE);
+  const std::filesystem::path file = resolveFile(name);
+  const std::string bytes = readFile(file.string(), LARGEST_MESH_FILE);
   checkText(name, ending, bytes);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
   keepReaderOf(ending, importer);
+  importer.SetIOHandler(new MaterialFiles(file.parent_path(), find));  // the importer deletes it
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
   try {

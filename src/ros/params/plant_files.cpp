@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/plant_files.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "core/config/files.h"
 #include "ros/params/mesh_file.h"
@@ -12,7 +14,8 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t LARGEST_FILE = 512U << 20;  // [B]
+constexpr std::size_t LARGEST_FILE = 512U << 20;    // [B]
+constexpr std::size_t LARGEST_TEXTURE = 16U << 20;  // [B] of the file
 constexpr int MOST_SLICES = 1024;
 constexpr std::size_t MOST_CELLS = std::size_t{1} << 25;  // of all slices
 
@@ -52,12 +55,53 @@ void append(const terrain::GreyImage& image, const std::string& name, canopy::Sl
   ++out.slices;
 }
 
-void loadForm(const std::string& file, canopy::PlantKind& kind) {
+// Only displays read the look of a mesh.
+canopy::LeafMesh loadPlantMesh(const std::string& file, const std::string& rigid,
+                               const FindFile& find) {
+  canopy::LeafMesh out = loadMesh(file, MeshAxes::TURNED, rigid, find);
+  if (find) return out;
+  out.normals.clear();
+  out.material.clear();
+  out.materials.clear();
+  return out;
+}
+
+// Reads the pictures that the materials of a mesh name. @param file of the mesh. @param find as
+// for loadMesh(). Faults are kept with the materials.
+void readPictures(const std::string& file, const FindFile& find,
+                  std::vector<canopy::FaceMaterial>& materials) {
+  const std::filesystem::path folder = std::filesystem::path(resolveFile(file)).parent_path();
+  std::map<std::string, canopy::FaceMaterial> read;
+  for (canopy::FaceMaterial& material : materials) {
+    if (material.texture.empty()) continue;
+    const auto [found, is_new] = read.try_emplace(material.texture);
+    if (is_new) {
+      try {
+        std::string name = material.texture;
+        std::replace(name.begin(), name.end(), '\\', '/');
+        if (name.find("://") != std::string::npos || name.front() == '*')
+          throw InvalidInput("is no file beside the mesh");
+        const std::string path = find((folder / name).lexically_normal().string());
+        found->second.picture =
+            std::make_shared<const std::string>(readFile(path, LARGEST_TEXTURE));
+      } catch (const InvalidInput&) {  // its text may show more than the message names
+        found->second.fault = "texture '" + material.texture +
+                              "' cannot be opened here, or has more than " +
+                              std::to_string(LARGEST_TEXTURE) + " bytes";
+      }
+    }
+    material.picture = found->second.picture;
+    material.fault = found->second.fault;
+  }
+}
+
+// @param find null: the look of a mesh is not read.
+void loadForm(const std::string& file, const FindFile& find, canopy::PlantKind& kind) {
   const bool mesh = kind.shape == canopy::PlantShape::MESH;
   auto form = std::make_shared<canopy::Form>(
-      mesh ? canopy::formOf(loadMesh(file, MeshAxes::TURNED, kind.rigid),
-                            kind.up == canopy::UpAxis::Y)
+      mesh ? canopy::formOf(loadPlantMesh(file, kind.rigid, find), kind.up == canopy::UpAxis::Y)
            : canopy::formOf(loadSlices(file), kind.solid));
+  if (find) readPictures(file, find, form->materials);
   kind.radius = form->radius * kind.height;
   kind.form = std::move(form);
 }
@@ -87,7 +131,7 @@ void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults
     if (!canopy::isRead(kind) || kind.file.empty()) continue;
     try {
       if (!isPackageAddress(kind.file)) kind.file = resolveFile(kind.file, folder);
-      loadForm(kind.file, kind);
+      loadForm(kind.file, {}, kind);
     } catch (const InvalidInput& error) {
       faults.add("kind " + kind.name + ": " + error.what());
     }
@@ -96,12 +140,13 @@ void loadForms(canopy::Layout& layout, const std::string& folder, Faults& faults
 
 void loadPublishedForms(canopy::Layout& layout, const std::vector<std::string>& folders,
                         Faults& faults) {
+  const FindFile find = [&](const std::string& path) { return findPublishedFile(path, folders); };
   for (canopy::PlantKind& kind : layout.kinds) {
     if (!canopy::isRead(kind) || kind.file.empty()) continue;
     try {
       const std::string file = findPublishedFile(kind.file, folders);
       try {
-        loadForm(file, kind);
+        loadForm(file, find, kind);
       } catch (const InvalidInput&) {  // its text may show what is in the file
         throw InvalidInput("'" + kind.file + "' is no plant here");
       }

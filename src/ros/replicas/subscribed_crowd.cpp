@@ -8,11 +8,6 @@
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr double LONGEST_STEP = 1.5;  // between messages, for rates of turning [s]
-
-}  // namespace
 
 void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};
@@ -86,22 +81,7 @@ void SubscribedCrowd::apply(const CrowdMotions& message) {
   });
 }
 
-// Both lists are in ascending order of ids.
-void SubscribedCrowd::estimateTurns(std::vector<Person>& people, Nanoseconds stamp) const {
-  const double since = secondsBetween(stamp_, stamp);
-  if (!(since > 0.0 && since < LONGEST_STEP)) return;
-  auto before = people_.begin();
-  for (Person& person : people) {
-    while (before != people_.end() && before->walker.id < person.walker.id) ++before;
-    if (before == people_.end()) return;
-    if (before->walker.id == person.walker.id)
-      person.walker.turn_rate =
-          std::remainder(person.walker.heading - before->walker.heading, 2.0 * PI) / since;
-  }
-}
-
 void SubscribedCrowd::replace(std::vector<Person> people, const std_msgs::Header& header) {
-  estimateTurns(people, fromMsg(header.stamp));
   people_ = std::move(people);
   stamp_ = fromMsg(header.stamp);
   frame_ = header.frame_id;

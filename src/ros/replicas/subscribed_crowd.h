@@ -46,7 +46,6 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
 
   /// Whether a publisher of the topic is connected.
   bool isPublished() const;
-  /// People turn as fast as they turned between the last two messages.
   const std::vector<Person>& people() const { return people_; }
   /// Styles of motion from `topic`/motions; the own ones until there is a message.
   const crowd::MotionStyles& motions() const { return motions_; }
@@ -61,7 +60,6 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
  private:
   void clear(const char* why);
   void subscribeMotions(ros::NodeHandle handle, const std::string& topic);
-  void estimateTurns(std::vector<Person>& people, Nanoseconds stamp) const;
   void replace(std::vector<Person> people, const std_msgs::Header& header);
 
   std::function<void()> subscribe_full_;  // to the topic without /view; null without a view

@@ -111,6 +111,8 @@ void CanopyDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const 
   board.show("Layout", source_->layoutStatus());
   board.show("Publishers", source_->publishers());
   board.show("State", source_->stateStatus(now));
+  if (canopy_ && !canopy_->textureFaults().empty())
+    board.show("Textures", {false, canopy_->textureFaults().front()});
   if (const SubscribedForest* forest = source_->forest()) {
     board.show("Forest Layout", forest->layoutStatus());
     board.show("Forest State", forest->stateStatus(now));

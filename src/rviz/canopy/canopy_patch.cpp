@@ -98,6 +98,7 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, std::vector<std::size_t> 
                          std::vector<double> heights, const PatchScene& scene)
     : plants_(std::move(plants)),
       heights_(std::move(heights)),
+      textures_(scene.textures),
       origin_(scene.origin),
       leaf_batch_(uniqueName("canopy_leaves"), scene.leaf_material),
       stem_batch_(uniqueName("canopy_stems"), scene.stem_material) {
@@ -110,6 +111,7 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, std::vector<std::size_t> 
 CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown& crown,
                          std::size_t number, const PatchScene& scene)
     : crown_(number),
+      textures_(scene.textures),
       origin_(scene.origin),
       middle_(0.5 * (crown.box.low + crown.box.high)),
       reach_(0.5 * length(Vec3(crown.box.high - crown.box.low))),
@@ -169,7 +171,7 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
                        share, static_cast<float>(rank) / static_cast<float>(count)});
   }
   addStems(grown, kind.stem_colour);
-  addRigid(grown, kind.stem_colour);
+  addRigid(grown, kind, p.kind);
   stem_owners_.resize(stem_paint_.size(), plant);
   tallest_ = std::max(tallest_, p.scale * kind.height);
   reach_ =
@@ -177,8 +179,12 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
 }
 
 // Adds the rigid faces of a mesh.
-void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const Vec3& colour) {
+void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const canopy::PlantKind& kind,
+                           std::size_t number) {
   for (const canopy::Leaf& face : grown.rigid) {
+    const Vec3 colour =
+        face.look > 0 ? textures_->lookOf(number, kind.form->looks[face.look - 1].material).mean
+                      : kind.stem_colour;
     const auto first = static_cast<std::uint32_t>(stem_paint_.size());
     const Vec3 normal = unit(cross(face.tip - face.root, face.side), Vec3::UnitZ());
     const Vec3 low = static_cast<double>(face.root_width) * face.side;
@@ -252,11 +258,34 @@ VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& draw
     face = unit(0.7 * to_sun + outward, Vec3::UnitZ());
     outward = face;
   }
+  if (drawn.leaf.look > 0) {
+    const canopy::FaceLook& look = kind.form->looks[drawn.leaf.look - 1];
+    const SinCos turn = sinCos(crown_ ? 0.0 : layout.plants[drawn.owner].yaw);
+    const Vec3 given(look.normal[0], look.normal[1], look.normal[2]);
+    const Vec3 turned(turn.cos * given.x() - turn.sin * given.y(),
+                      turn.sin * given.x() + turn.cos * given.y(), given.z());
+    VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, sky}};
+    setNormal(unit(turned, face), out);
+    setColour(textures_->lookOf(drawn.kind, look.material).colour, sun, out);
+    return out;
+  }
   const double young = drawn.leaf.shade;
   VertexPaint out{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.f, 0.f, sky}};
   setNormal(unit(0.75 * outward + 0.5 * face, Vec3::UnitZ()), out);
   setColour(kind.colour * (1.0 - young) + kind.colour_young * young, sun, out);
   return out;
+}
+
+// Corners 2 and 3 are the tip of a face.
+std::array<float, 2> CanopyPatch::placeOf(const canopy::Layout& layout, const Drawn& drawn,
+                                          int corner) const {
+  if (drawn.leaf.look > 0) {
+    const canopy::FaceLook& look = layout.kinds[drawn.kind].form->looks[drawn.leaf.look - 1];
+    const int place = textures_->lookOf(drawn.kind, look.material).place;
+    const auto& uv = look.uv[static_cast<std::size_t>(std::min(corner, 2))];
+    if (place >= 0) return foliagePlace(place, uv[0], 1.f - uv[1]);
+  }
+  return foliagePlace(drawn.cut, corner % 2 == 0 ? 0.f : 1.f, corner < 2 ? 0.f : 1.f);
 }
 
 void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
@@ -268,8 +297,7 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
     const canopy::Leaf& leaf = drawn.leaf;
     const VertexPaint own = paintOf(layout, drawn, to_sun);
     for (int corner = 0; corner < 4; ++corner) {
-      const std::array<float, 2> place =
-          foliagePlace(drawn.cut, corner % 2 == 0 ? 0.f : 1.f, corner < 2 ? 0.f : 1.f);
+      const std::array<float, 2> place = placeOf(layout, drawn, corner);
       paint.push_back(own);
       paint.back().place[0] = place[0];
       paint.back().place[1] = place[1];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/replicas/leafed_crowns.h"
+#include "rviz/canopy/plant_textures.h"
 #include "rviz/render/batch.h"
 #include "rviz/textures/foliage_texture.h"
 #include "rviz/textures/sky_texture.h"
@@ -23,6 +24,7 @@ struct PatchScene {
   Ogre::SceneNode* node;  ///< lives longer than the patch
   std::string leaf_material, stem_material;
   Vec3 to_sun;
+  const PlantTextures* textures;
 };
 
 /// Neighbouring plants, or a crown of the forest, in two batches of leaves and stems. The outer
@@ -108,7 +110,8 @@ class CanopyPatch {
   void moveBy(const Mover& mover, std::size_t count);
   void bendStems(const canopy::Foliage& foliage);
   void addStems(const canopy::GrownPlant& grown, const Vec3& colour);
-  void addRigid(const canopy::GrownPlant& grown, const Vec3& colour);
+  void addRigid(const canopy::GrownPlant& grown, const canopy::PlantKind& kind, std::size_t number);
+  std::array<float, 2> placeOf(const canopy::Layout& layout, const Drawn& drawn, int corner) const;
   VertexPaint paintOf(const canopy::Layout& layout, const Drawn& drawn, const Vec3& to_sun) const;
   void build(const canopy::Layout& layout, const Vec3& to_sun);
   std::vector<float> placeAtRest(const std::vector<const Drawn*>& leaves) const;
@@ -116,6 +119,7 @@ class CanopyPatch {
   std::optional<std::size_t> crown_;
   std::vector<std::size_t> plants_;
   std::vector<double> heights_;  // at which the plants have been cut [m]
+  const PlantTextures* textures_;
   Vec3 origin_, middle_{Vec3::Zero()};
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;

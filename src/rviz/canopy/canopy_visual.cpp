@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "rviz/ground/shadow_painter.h"
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/foliage_texture.h"
 
@@ -65,7 +66,9 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
                            const Vec3& to_sun)
     : to_sun_(to_sun),
       node_(parent.createChildSceneNode()),
-      leaf_texture_(uniqueName("foliage_picture"), sharedFoliage()),
+      textures_(canopy.replica()->layout()),
+      leaf_texture_(uniqueName("foliage_picture"),
+                    textures_.empty() ? sharedFoliage() : textures_.atlas(LEAF_EDGE)),
       stem_texture_(uniqueName("stem_picture"), sharedStems()),
       leaf_material_(Material::Kind::LEAVES, uniqueName("foliage_material"),
                      {leaf_texture_.name()}),
@@ -89,7 +92,7 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
 }
 
 PatchScene CanopyVisual::patchScene() const {
-  return {origin_, node_, leaf_material_.name(), stem_material_.name(), to_sun_};
+  return {origin_, node_, leaf_material_.name(), stem_material_.name(), to_sun_, &textures_};
 }
 
 // Leaf by leaf, plants that are read from files have together at most MOST_READ_LEAVES leaves,
@@ -106,6 +109,8 @@ void CanopyVisual::thinForms() {
     auto form = std::make_shared<canopy::Form>();
     form->radius = kind.form->radius;
     form->rigid = kind.form->rigid;
+    form->looks = kind.form->looks;
+    form->materials = kind.form->materials;
     for (std::size_t i = 0; i < kind.form->leaves.size(); i += stride) {
       form->leaves.push_back(kind.form->leaves[i]);
       form->leaves.back().side *= std::sqrt(static_cast<double>(stride));
@@ -182,8 +187,8 @@ const std::vector<bool>& CanopyVisual::updatePictures(const canopy::Foliage& fol
     return none;
   }
   if (!images_) {
-    images_ =
-        std::make_unique<LayerImages>(*node_, layout_, origin_, leaf_texture_.name(), to_sun_);
+    images_ = std::make_unique<LayerImages>(*node_, layout_, origin_, leaf_texture_.name(),
+                                            textures_, to_sun_);
     images_->light(daylight_, haze_);
   }
   std::vector<const CanopyPatch*> upright;

@@ -56,6 +56,8 @@ class CanopyVisual {
   /// Returns the areas of ground whose light cuts have changed since the last call.
   std::vector<Extent> takeCutAreas() { return std::exchange(cut_areas_, {}); }
   const CanopyReport& report() const { return report_; }
+  /// Returns why textures of meshes are not shown.
+  const std::vector<std::string>& textureFaults() const { return textures_.faults(); }
 
  private:
   void thinForms();
@@ -73,6 +75,7 @@ class CanopyVisual {
   canopy::Layout layout_, thinned_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Vec3 origin_{Vec3::Zero()};
+  PlantTextures textures_;
   Texture leaf_texture_, stem_texture_;
   Material leaf_material_, stem_material_;
   std::vector<std::unique_ptr<CanopyPatch>> patches_;

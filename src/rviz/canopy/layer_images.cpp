@@ -58,7 +58,8 @@ bool LayerImages::isSupported() {
 }
 
 LayerImages::LayerImages(Ogre::SceneNode& node, const canopy::Layout& layout, const Vec3& origin,
-                         const std::string& leaf_texture, const Vec3& to_sun)
+                         const std::string& leaf_texture, const PlantTextures& textures,
+                         const Vec3& to_sun)
     : node_(&node),
       origin_(origin),
       scene_(Ogre::Root::getSingleton().createSceneManager(
@@ -67,7 +68,8 @@ LayerImages::LayerImages(Ogre::SceneNode& node, const canopy::Layout& layout, co
       camera_node_(scene_->getRootSceneNode()->createChildSceneNode()),
       material_(Material::Kind::LEAVES, uniqueName("layered_leaves"), {leaf_texture},
                 Material::Variant::LAYERED),
-      leaves_(std::make_unique<LeavesAtRest>(*scene_, layout, origin, material_.name(), to_sun)) {
+      leaves_(std::make_unique<LeavesAtRest>(*scene_, layout, origin, material_.name(), textures,
+                                             to_sun)) {
   camera_node_->attachObject(camera_);
   camera_->setNearClipDistance(static_cast<float>(NEAR_CLIP));
   camera_->setFarClipDistance(static_cast<float>(FAR_CLIP));

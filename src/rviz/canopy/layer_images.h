@@ -30,7 +30,7 @@ class LayerImages {
   /// @param node of the plants, with its frame at `origin` [m]. @param layout lives longer.
   /// @param leaf_texture name.
   LayerImages(Ogre::SceneNode& node, const canopy::Layout& layout, const Vec3& origin,
-              const std::string& leaf_texture, const Vec3& to_sun);
+              const std::string& leaf_texture, const PlantTextures& textures, const Vec3& to_sun);
   ~LayerImages();
   LayerImages(const LayerImages&) = delete;
   LayerImages& operator=(const LayerImages&) = delete;

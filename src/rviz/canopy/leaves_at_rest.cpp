@@ -11,12 +11,14 @@
 
 namespace vegetation_sim::view {
 LeavesAtRest::LeavesAtRest(Ogre::SceneManager& scene, const canopy::Layout& layout,
-                           const Vec3& origin, const std::string& material, const Vec3& to_sun)
+                           const Vec3& origin, const std::string& material,
+                           const PlantTextures& textures, const Vec3& to_sun)
     : scene_(&scene),
       hidden_(scene.createSceneNode()),
       layout_(layout),
       origin_(origin),
       material_(material),
+      textures_(textures),
       to_sun_(to_sun) {}
 
 LeavesAtRest::~LeavesAtRest() {
@@ -72,7 +74,7 @@ const LeavesAtRest::Form& LeavesAtRest::formOf(std::size_t kind) {
   out.layout->plants[0].kind = static_cast<std::uint16_t>(kind);
   out.plant = std::make_unique<CanopyPatch>(
       *out.layout, std::vector<std::size_t>{0}, std::vector<double>{canopy::UNCUT},
-      PatchScene{Vec3::Zero(), hidden_, material_, material_, to_sun_});
+      PatchScene{Vec3::Zero(), hidden_, material_, material_, to_sun_, &textures_});
   out.batch = out.plant->copyAtRest(*hidden_, material_, CanopyPatch::Share::ALIKE);
   return out;
 }

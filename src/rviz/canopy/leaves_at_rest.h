@@ -20,8 +20,9 @@ namespace vegetation_sim::view {
 class LeavesAtRest {
  public:
   /// @param scene with its frame at `origin` [m]. @param material of layered leaves.
+  /// @param textures outlive the object.
   LeavesAtRest(Ogre::SceneManager& scene, const canopy::Layout& layout, const Vec3& origin,
-               const std::string& material, const Vec3& to_sun);
+               const std::string& material, const PlantTextures& textures, const Vec3& to_sun);
   ~LeavesAtRest();
 
   /// Sets the patches whose leaves there are. Returns whether they are others than before.
@@ -70,6 +71,7 @@ class LeavesAtRest {
   const canopy::Layout& layout_;
   Vec3 origin_;
   std::string material_;
+  const PlantTextures& textures_;
   Vec3 to_sun_;
   std::map<std::size_t, Form> forms_;
   std::vector<Rest> rest_;

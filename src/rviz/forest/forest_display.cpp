@@ -109,10 +109,15 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   if (forest_->treeSet() == nullptr) return;
   shareLight();
   if (!properties_->ground()) return;
-  if (givesGround(source_->replica().terrain()))
-    makeGround();
-  else
-    makeShadows();
+  const bool gives = givesGround(source_->replica().terrain());
+  if (gives) makeGround();
+  if (!gives || properties_->movesShadows()) updateShadows(stamp, view);
+}
+
+// The ground of this display has shadows at rest unless they move.
+void ForestDisplay::updateShadows(Nanoseconds stamp, const view::View& view) {
+  makeShadows();
+  shadows_->update(source_->replica(), stamp, view.eye.position);
 }
 
 void ForestDisplay::shareLight() {
@@ -128,12 +133,19 @@ void ForestDisplay::dropGround() {
 }
 
 void ForestDisplay::makeShadows() {
-  if (shadows_ && grounded_ == forest_->treeSets()) return;
+  if (shadows_ && shaded_ == forest_->treeSets()) return;
   const view::Daylight daylight = properties_->daylight();
-  shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, *forest_->treeSet(),
-                                                  source_->replica().terrain(), daylight);
+  const view::TreeSet& tree_set = *forest_->treeSet();
+  const terrain::HeightMap& terrain = source_->replica().terrain();
+  shadows_.reset();
+  if (properties_->movesShadows())
+    shadows_ = std::make_unique<view::ShadowVisual>(
+        *scene_node_, tree_set, terrain,
+        std::make_unique<view::MovingShadows>(tree_set, terrain, daylight.to_sun));
+  else
+    shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, tree_set, terrain, daylight);
   shadows_->light(daylight, properties_->hazeValues());
-  grounded_ = forest_->treeSets();
+  shaded_ = forest_->treeSets();
 }
 
 void ForestDisplay::makeGround() {
@@ -145,7 +157,11 @@ void ForestDisplay::makeGround() {
   const view::Plot plot = view::plotAround(tree_set.extent());
   const view::Rgba tint = properties_->groundTint();
   const view::Image picture =
-      view::groundPicture(plot, GROUND_EDGE, tree_set, terrain, daylight, tint);
+      properties_->movesShadows()
+          ? view::groundPicture(plot, GROUND_EDGE, view::wholePlot(GROUND_EDGE),
+                                {{}, [&](const Vec3& at) { return tree_set.light().sky(at); }},
+                                terrain, daylight, tint)
+          : view::groundPicture(plot, GROUND_EDGE, tree_set, terrain, daylight, tint);
   const view::Land land{plot, picture, terrain, tree_set.origin(), GROUND_CELL, tint};
   ground_ = std::make_unique<view::GroundVisual>(*scene_node_, land, daylight);
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());

@@ -48,6 +48,7 @@ class ForestDisplay : public SceneryDisplay {
  private:
   void makeGround();
   void makeShadows();
+  void updateShadows(Nanoseconds stamp, const view::View& view);
   void shareLight();
   void takeGrabs(const GrabStatuses& message);
 
@@ -57,12 +58,12 @@ class ForestDisplay : public SceneryDisplay {
   std::map<std::uint32_t, std::vector<int>> held_;  // branches by tree, sorted
   std::unique_ptr<view::ForestVisual> forest_;
   std::unique_ptr<view::GroundVisual> ground_;
-  std::unique_ptr<view::ShadowVisual> shadows_;  // if another display draws the ground
+  std::unique_ptr<view::ShadowVisual> shadows_;  // moving, or if another display draws the ground
   Vec3 to_sun_{Vec3::Zero()};                    // for which trees are lit
   std::unique_ptr<view::SharedLight> shared_light_;
   int lit_{-1};  // tree set whose light is shared
   int layouts_{0};
-  int grounded_{-1};  // tree set for which ground or shadows were made
+  int grounded_{-1}, shaded_{-1};  // tree sets for which ground and shadows were made
 };
 
 }  // namespace vegetation_sim

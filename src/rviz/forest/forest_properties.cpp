@@ -41,6 +41,9 @@ void ForestProperties::addLook(rviz::Display& display) {
   leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
                                    &display);
   flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
+  moving_shadows_ = new rviz::BoolProperty(
+      "Moving Shadows", false, "Shadows on the ground follow the trees near the viewer.", &display,
+      SLOT(updateGround()), &display);
   colours_ = new rviz::EnumProperty("Colours", "natural",
                                     "By state: branches are painted by their joint: red moves, "
                                     "green is between moving and fixed, "
@@ -53,6 +56,10 @@ void ForestProperties::addLook(rviz::Display& display) {
 
 SubscribedForest::Topics ForestProperties::topics() const {
   return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
+}
+
+bool ForestProperties::movesShadows() const {
+  return moving_shadows_->getBool();
 }
 
 std::string ForestProperties::grabsTopic() const {

@@ -29,6 +29,7 @@ class ForestProperties : public SceneryProperties {
   SubscribedForest::Topics topics() const;
   std::string grabsTopic() const;
   ForestVisual::Options options() const;
+  bool movesShadows() const;
 
  private:
   void addTopics(rviz::Display& display);
@@ -36,7 +37,7 @@ class ForestProperties : public SceneryProperties {
 
   rviz::RosTopicProperty *layout_, *wind_, *state_, *grabs_;
   rviz::IntProperty *triangles_, *most_trees_;
-  rviz::BoolProperty *leaves_, *flutter_;
+  rviz::BoolProperty *leaves_, *flutter_, *moving_shadows_;
   rviz::EnumProperty* colours_;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tree/mesh/mesh.h"
+#include "rviz/ground/shadow_painter.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
@@ -13,8 +13,6 @@ namespace {
 
 constexpr double ROOM = 14.0;         // [m] margin around the trees
 constexpr double LAND_BORDER = 0.12;  // share of the edge that fades to plain grass
-constexpr double LEAF_DEPTH = 0.55;   // optical depth of one leaf cluster, seen from the sun
-constexpr double THINNEST = 0.7;      // [pixel] radius of a shadow
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
 constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
 constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
@@ -26,57 +24,6 @@ float ramp(double low, double high, double x) {
 Rgba times(const Rgba& a, const Rgba& b) {
   return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
 }
-
-// Accumulates the optical depth towards the sun for each pixel.
-class ShadowPainter {
- public:
-  ShadowPainter(const Plot& plot, int edge, const Window& window, const terrain::HeightMap& terrain,
-                const Vec3& to_sun)
-      : plot_(plot),
-        edge_(edge),
-        window_(window),
-        terrain_(terrain),
-        slope_(to_sun / std::max(to_sun.z(), 0.15)),
-        depth_(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows),
-               0.f) {}
-
-  // Adds the shadow of a ball of leaves or wood.
-  void drop(const Vec3& from, double radius, double depth) {
-    Vec3 at = from;
-    for (int i = 0; i < 3; ++i)  // iterates along the ray to the nearly flat ground
-      at = at - (at.z() - terrain_.height(at.x(), at.y())) * slope_;
-    const double pixel = plot_.edge / edge_;
-    const double column = (at.x() - plot_.x) / pixel, row = (at.y() - plot_.y) / pixel;
-    const double reach = std::max(radius / pixel, THINNEST);
-    depth *= std::min(1.0, radius / pixel / THINNEST);  // thinner than a pixel is fainter
-    const int last_row = std::min(window_.row + window_.rows - 1, static_cast<int>(row + reach));
-    const int last_column =
-        std::min(window_.column + window_.columns - 1, static_cast<int>(column + reach));
-    for (int r = std::max(window_.row, static_cast<int>(row - reach)); r <= last_row; ++r) {
-      for (int c = std::max(window_.column, static_cast<int>(column - reach)); c <= last_column;
-           ++c) {
-        const double x = (c + 0.5 - column) / reach, y = (r + 0.5 - row) / reach;
-        const double inside = 1.0 - x * x - y * y;
-        if (inside > 0.0)
-          depth_[static_cast<std::size_t>((r - window_.row) * window_.columns + c -
-                                          window_.column)] += static_cast<float>(depth * inside);
-      }
-    }
-  }
-
-  std::vector<float> light() && {
-    for (float& depth : depth_) depth = std::exp(-depth);
-    return std::move(depth_);
-  }
-
- private:
-  Plot plot_;
-  int edge_;
-  Window window_;
-  const terrain::HeightMap& terrain_;
-  Vec3 slope_;
-  std::vector<float> depth_;
-};
 
 // Noise that repeats without a seam for any edge: each place is mixed with its neighbours one edge
 // away.
@@ -135,33 +82,6 @@ Rgba openLight(const Daylight& daylight, const Vec3& normal) {
   for (std::size_t i = 0; i < 3; ++i) out[i] = daylight.sun[i] * facing + daylight.zenith_light[i];
   out[3] = 1.f;
   return out;
-}
-
-std::vector<float> castShadows(const Plot& plot, int edge, const Window& window,
-                               const terrain::HeightMap& terrain, const Vec3& to_sun,
-                               const std::function<void(const ShadowDrop&)>& report) {
-  ShadowPainter painter(plot, edge, window, terrain, to_sun);
-  report([&](const Vec3& at, double radius, double depth) { painter.drop(at, radius, depth); });
-  return std::move(painter).light();
-}
-
-std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
-                             const terrain::HeightMap& terrain, const Vec3& to_sun) {
-  return castShadows(plot, edge, wholePlot(edge), terrain, to_sun, [&](const ShadowDrop& drop) {
-    for (const auto& tree : tree_set.trees()) {
-      const double radius = 0.5 * tree->leafSize();
-      for (const forest::Branch& branch : tree->tree().skeleton.branches) {
-        const Vec3 base = tree->foot() + branch.rest.position;
-        const Vec3 tip = tree->foot() + tipOf(branch, branch.rest);
-        for (int leaf = 0; tree_set.hasLeaves() && leaf < branch.leaves; ++leaf)
-          drop(base + (tip - base) * ((leaf + 0.8) / branch.leaves), radius, LEAF_DEPTH);
-        if (branch.depth > 1 && tree_set.hasLeaves()) continue;  // leaves hide them
-        const int steps = 1 + static_cast<int>(branch.length / 0.15);
-        for (int s = 0; s < steps; ++s)
-          drop(base + (tip - base) * (static_cast<double>(s) / steps), branch.base_radius, 1.5);
-      }
-    }
-  });
 }
 
 Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,

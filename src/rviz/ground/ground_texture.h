@@ -42,22 +42,11 @@ Rgba groundColour(const Noise& noise, double x, double y, double shelter, const 
 /// Returns the light on open ground with this normal.
 Rgba openLight(const Daylight& daylight, const Vec3& normal);
 
-/// Returns the share of sunlight that reaches each pixel of the plot; it resolves the shadows of
-/// trees better than the light grid. [edge x edge], south first.
-std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
-                             const terrain::HeightMap& terrain, const Vec3& to_sun);
-
 /// Shares of light that reach the ground of a plot.
 struct Shade {
   std::vector<float> sun;                  ///< of sunlight, as castShadows(); empty means 1
   std::function<double(const Vec3&)> sky;  ///< share of skylight at a place; empty means 1
 };
-
-/// Returns the share of sunlight that balls leave to each pixel of a window, south first.
-using ShadowDrop = std::function<void(const Vec3& at, double radius, double depth)>;
-std::vector<float> castShadows(const Plot& plot, int edge, const Window& window,
-                               const terrain::HeightMap& terrain, const Vec3& to_sun,
-                               const std::function<void(const ShadowDrop&)>& report);
 
 /// Paints a window of the lit plot from above, north at the top. @param shade of the window.
 Image groundPicture(const Plot& plot, int edge, const Window& window, const Shade& shade,

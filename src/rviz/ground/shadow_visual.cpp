@@ -5,7 +5,7 @@
 #include <OgreSceneManager.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace vegetation_sim::view {
 namespace {
@@ -15,13 +15,16 @@ constexpr double LIFT = 0.2, CELL = 2.0;  // [m] height above the ground; cell o
 constexpr int MOST_SHADOW_CELLS = 120;    // along an edge
 constexpr float DARKEST = 0.62f;          // alpha without sunlight
 
-Image veilPicture(const Plot& plot, const TreeSet& tree_set, const terrain::HeightMap& terrain,
-                  const Vec3& to_sun) {
-  const std::vector<float> light = shadowsOn(plot, EDGE, tree_set, terrain, to_sun);
-  Image out(EDGE, EDGE, {1.f, 1.f, 1.f, 0.f});
-  for (int r = 0; r < EDGE; ++r)
-    for (int c = 0; c < EDGE; ++c)
-      out.at(c, EDGE - 1 - r)[3] = DARKEST * (1.f - light[static_cast<std::size_t>(r * EDGE + c)]);
+constexpr double UPDATE_TIME = 3e-3;  // [s] of painting in one update
+
+/// Paints a window of the veil, north at the top. @param light of the plot, south first.
+Image veilPicture(const std::vector<float>& light, int edge, const Window& window) {
+  Image out(window.columns, window.rows, {1.f, 1.f, 1.f, 0.f});
+  for (int r = 0; r < window.rows; ++r)
+    for (int c = 0; c < window.columns; ++c)
+      out.at(c, window.rows - 1 - r)[3] =
+          DARKEST *
+          (1.f - light[static_cast<std::size_t>((window.row + r) * edge + window.column + c)]);
   return out;
 }
 
@@ -29,10 +32,24 @@ Image veilPicture(const Plot& plot, const TreeSet& tree_set, const terrain::Heig
 
 ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            const terrain::HeightMap& terrain, const Daylight& daylight)
+    : ShadowVisual(parent, tree_set, terrain,
+                   veilPicture(shadowsOn(plotAround(tree_set.extent()), EDGE, tree_set, terrain,
+                                         daylight.to_sun),
+                               EDGE, wholePlot(EDGE)),
+                   nullptr) {}
+
+ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
+                           const terrain::HeightMap& terrain, std::unique_ptr<MovingShadows> moving)
+    : ShadowVisual(parent, tree_set, terrain,
+                   veilPicture(moving->light(), moving->edge(), wholePlot(moving->edge())),
+                   std::move(moving)) {}
+
+ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
+                           const terrain::HeightMap& terrain, const Image& picture,
+                           std::unique_ptr<MovingShadows>&& moving)
     : node_(parent.createChildSceneNode()),
-      texture_(
-          uniqueName("veil_picture"),
-          mipmaps(veilPicture(plotAround(tree_set.extent()), tree_set, terrain, daylight.to_sun))),
+      moving_(std::move(moving)),
+      texture_(uniqueName("veil_picture"), mipmaps(picture)),
       material_(Material::Kind::SHADOWS, uniqueName("veil_material"), {texture_.name()}),
       veil_(uniqueName("veil"), material_.name()) {
   const Plot plot = plotAround(tree_set.extent());
@@ -67,6 +84,17 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
 ShadowVisual::~ShadowVisual() {
   node_->detachAllObjects();
   node_->getCreator()->destroySceneNode(node_);
+}
+
+void ShadowVisual::update(const forest::ForestReplica& replica, Nanoseconds stamp,
+                          const Vec3& viewer) {
+  if (!moving_) return;
+  moving_->follow(viewer);
+  if (!moving_->paint(replica, stamp, UPDATE_TIME)) return;
+  const Window changed = moving_->takeChanged();
+  if (changed.columns * changed.rows == 0) return;
+  texture_.update(changed.column, moving_->edge() - changed.row - changed.rows,
+                  veilPicture(moving_->light(), moving_->edge(), changed));
 }
 
 void ShadowVisual::light(const Daylight& daylight, const Haze& haze) {

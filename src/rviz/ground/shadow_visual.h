@@ -4,26 +4,37 @@
 
 #include <OgreSceneNode.h>
 
-#include "rviz/ground/ground_texture.h"
+#include <memory>
+
+#include "rviz/ground/moving_shadows.h"
 #include "rviz/render/batch.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
 
 namespace vegetation_sim::view {
 
-/// Shadows of a forest over the ground of another display: a dark transparent surface at the height
-/// of grass. Render thread only.
+/// Shadows of a forest on the ground: a dark transparent surface at the height of grass. Render
+/// thread only.
 class ShadowVisual {
  public:
   /// @param parent scene node in the frame of the layout.
   ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
                const Daylight& daylight);
+  /// The shadows follow the trees by update(). @param moving draws into the texture.
+  ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
+               std::unique_ptr<MovingShadows> moving);
   ~ShadowVisual();
+
+  /// Moves the shadows on, for some milliseconds. Does nothing for shadows at rest.
+  void update(const forest::ForestReplica& replica, Nanoseconds stamp, const Vec3& viewer);
 
   void light(const Daylight& daylight, const Haze& haze);
 
  private:
-  Ogre::SceneNode* node_;  // owned by Ogre, destroyed in the destructor
+  ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set, const terrain::HeightMap& terrain,
+               const Image& picture, std::unique_ptr<MovingShadows>&& moving);
+  Ogre::SceneNode* node_;                  // owned by Ogre, destroyed in the destructor
+  std::unique_ptr<MovingShadows> moving_;  // null: at rest
   Texture texture_;
   Material material_;
   Batch veil_;

@@ -13,7 +13,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int CUTS = 8;       // places for images in the atlas; its width is a power of two
+constexpr int CUTS = 16;      // places for images in the atlas; its width is a power of two
+constexpr int PAINTED = 5;    // of them
+constexpr int SMALLEST = 4;   // edge of an image in the last mipmap [pixel]
 constexpr float DOTS = 32.f;  // of a puff, along an edge
 constexpr float IMAGE_INSET =
     0.02f;  // share of an image that keeps its neighbours out of the filter
@@ -97,19 +99,29 @@ std::vector<Image> foliageAtlas(int edge) {
   std::vector<Image> out;
   const Image cuts[] = {paint(edge, leafPixel), paint(edge, sprigPixel), paint(edge, ribbonPixel),
                         Image(edge, edge, {0.8f, 0.8f, 0.8f, 1.f}), paint(edge, puffPixel)};
-  for (int cut = 0; cut < static_cast<int>(std::size(cuts)); ++cut) {
-    const std::vector<Image> levels = coveredMipmaps(cuts[cut], 4);
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      const int side = levels[level].columns;
-      if (cut == 0) out.emplace_back(CUTS * side, side, Rgba{0.8f, 0.8f, 0.8f, 0.f});
-      paste(levels[level], side * cut, 0, out[level]);
-    }
-  }
+  static_assert(std::size(cuts) == PAINTED && PAINTED + MOST_PICTURES == CUTS);
+  for (int side = edge; side >= SMALLEST; side /= 2)
+    out.emplace_back(CUTS * side, side, Rgba{0.8f, 0.8f, 0.8f, 0.f});
+  for (int cut = 0; cut < PAINTED; ++cut) addToAtlas(cuts[cut], cut, out);
   return out;
 }
 
+int firstPicturePlace() {
+  return PAINTED;
+}
+
+void addToAtlas(const Image& picture, int place, std::vector<Image>& atlas) {
+  const std::vector<Image> levels = coveredMipmaps(picture, SMALLEST);
+  for (std::size_t level = 0; level < std::min(levels.size(), atlas.size()); ++level)
+    paste(levels[level], levels[level].columns * place, 0, atlas[level]);
+}
+
 std::array<float, 2> foliagePlace(LeafCut cut, float u, float v) {
-  return {(static_cast<float>(cut) + IMAGE_INSET + (1.f - 2.f * IMAGE_INSET) * u) / CUTS,
+  return foliagePlace(static_cast<int>(cut), u, v);
+}
+
+std::array<float, 2> foliagePlace(int place, float u, float v) {
+  return {(static_cast<float>(place) + IMAGE_INSET + (1.f - 2.f * IMAGE_INSET) * u) / CUTS,
           IMAGE_INSET + (1.f - 2.f * IMAGE_INSET) * v};
 }
 

@@ -16,7 +16,13 @@ enum class LeafCut { LEAF, SPRIG, RIBBON, PLAIN, PUFF };
 /// Paints the images side by side: lightness with a mean of about 0.8 in the colour, outlines in
 /// alpha. Mipmaps keep the coverage.
 std::vector<Image> foliageAtlas(int edge);
+/// Number of other pictures that an atlas has room for, and the place of the first.
+constexpr int MOST_PICTURES = 11;
+int firstPicturePlace();
+/// Adds a picture of the edge of the atlas at one of those places, whose foot is below (v = 1).
+void addToAtlas(const Image& picture, int place, std::vector<Image>& atlas);
 /// Converts a place in one image, u across and v along from 0 to 1, to atlas coordinates.
 std::array<float, 2> foliagePlace(LeafCut cut, float u, float v);
+std::array<float, 2> foliagePlace(int place, float u, float v);
 
 }  // namespace vegetation_sim::view

@@ -111,7 +111,7 @@ constexpr double BLADE_COSINE = 0.5;
 struct BladeColumns {
   double width, reach;
 };
-/// Of the random numbers of columns, with the seed of the grass.
+/// Key of the random numbers of columns, with the seed of the grass.
 constexpr std::uint32_t BLADE_SEED = 0x626c6164U;
 constexpr std::array<BladeColumns, 2> BLADE_COLUMNS{{{0.006, 6.0}, {0.012, 12.0}}};
 

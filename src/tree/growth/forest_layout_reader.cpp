@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "core/math/growth_stage.h"
 #include "terrain/plant_rows.h"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr Range ANYWHERE{-1e7, 1e7};
 constexpr int MOST_TILES = 65536;
-constexpr double OF_THE_FILE = -1.0;  // a strength that is not given
+constexpr std::size_t MOST_DESIGNED = 1024;  // species with factors of single trees
+constexpr double OF_THE_FILE = -1.0;         // a strength that is not given
 
 class LayoutReader {
  public:
@@ -86,8 +88,30 @@ class LayoutReader {
     section.vector("position", tree.position, "m", ANYWHERE);
     section.number("yaw", tree.yaw, "rad", {-1000.0, 1000.0});
     section.number("scale", tree.scale, "", {0.05, 20.0});
+    TreeFactors factors;
+    describe(section, factors);
     section.finish();
+    tree.species = designedSpecies(section, tree.species, factors);
     return tree;
+  }
+
+  // Returns the species of a tree with its own factors, which trees whose factors are equal to six
+  // digits share. A scenario cannot name it.
+  std::uint16_t designedSpecies(YamlSection& section, std::uint16_t species,
+                                const TreeFactors& factors) {
+    const bool plain = factors.stiffness == 1.0 && factors.damping == 1.0 && factors.wind == 1.0;
+    if (plain || species >= out_.species.size()) return species;
+    Species own = applyFactors(out_.species[species], factors);
+    const auto [entry, is_new] = designed_.try_emplace(own.name, species);
+    if (!is_new) return entry->second;
+    if (designed_.size() > MOST_DESIGNED) {
+      section.fault("stiffness, damping, wind",
+                    "are the factors of more than " + std::to_string(MOST_DESIGNED) + " kinds");
+      return species;
+    }
+    entry->second = static_cast<std::uint16_t>(out_.species.size());
+    out_.species.push_back(std::move(own));
+    return entry->second;
   }
 
   void readRows(YamlSection& section) {
@@ -156,6 +180,7 @@ class LayoutReader {
   Faults& faults_;
   Layout out_;
   std::map<std::string, std::uint16_t> number_;  // species by name
+  std::map<std::string, std::uint16_t> designed_;
   std::uint64_t drawn_{0};
   int planted_{0};  // in rows
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "core/math/growth_stage.h"
 #include "vegetation_sim/core/math/math.h"
@@ -68,6 +69,12 @@ void describe(FieldVisitor& v, Design& d) {
   v.number("leaves", d.leaves, "", {0.0, 3.0});
   v.number("angle", d.angle, "", {0.2, 2.0});
   v.number("noise", d.noise, "", {0.0, 3.0});
+}
+
+void describe(FieldVisitor& v, TreeFactors& f) {
+  v.number("stiffness", f.stiffness, "", {0.01, 100.0});
+  v.number("damping", f.damping, "", {0.0, 20.0});
+  v.number("wind", f.wind, "", {0.0, 20.0});
 }
 
 double largestAngle(const Species& s, double relative_diameter) {
@@ -142,6 +149,18 @@ Species applyDesign(const Species& species, const Design& design) {
   const double limit = 0.8 * MAX_BRANCHES;
   while (expectedBranches(out) > limit)
     for (LimbRule& rule : out.limbs) rule.children *= 0.95;
+  return out;
+}
+
+Species applyFactors(const Species& species, const TreeFactors& factors) {
+  Species out = species;
+  out.youngs_modulus *= factors.stiffness;
+  out.damping_ratio *= factors.damping;
+  out.drag_coefficient *= factors.wind;
+  std::ostringstream name;
+  name << species.name << " (stiffness " << factors.stiffness << ", damping " << factors.damping
+       << ", wind " << factors.wind << ")";
+  out.name = name.str();
   return out;
 }
 

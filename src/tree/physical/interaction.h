@@ -56,12 +56,14 @@ inline Vec3 jawDirection(const Grab& grab) {
   return rotate(grab.holder.orientation, grab.direction);
 }
 
-/// A force on a branch during an interval.
+/// A force on a branch during an interval. With `whole_tree` all branches of the tree are physical
+/// meanwhile, as a calibration needs (paper 1).
 struct Push {
   BranchPoint point;
   Vec3 force{Vec3::Zero()};  ///< world [N]
   Nanoseconds until{0};      ///< end of the interval
   Nanoseconds from{0};       ///< start; a stamp in the past means the last tick
+  bool whole_tree{false};
 };
 
 /// Reaction of a branch on the body that holds or touches it.

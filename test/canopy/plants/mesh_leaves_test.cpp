@@ -136,7 +136,10 @@ TEST(FormOf, RejectsInvalidMeshes) {
   LeafMesh flat = ladderOf(3);
   for (Vec3& v : flat.vertices) v.z() = 1.0;
   EXPECT_NE(errorOf([&] { formOf(flat, false); }).find("height = 0"), std::string::npos);
-  EXPECT_THROW(formOf(LeafMesh{{Vec3::Zero()}, {}, {{0, 0, 0}}, {}}, false), InvalidInput);
+  LeafMesh point;
+  point.vertices = {Vec3::Zero()};
+  point.faces = {{0, 0, 0}};
+  EXPECT_THROW(formOf(point, false), InvalidInput);
 }
 
 // Bad input: one million components.

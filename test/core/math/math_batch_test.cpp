@@ -44,6 +44,22 @@ TEST(MathBatch, SineAndCosineHaveTheBitsOfSinCosOnEveryInstructionSet) {
     }
 }
 
+TEST(MathBatch, CosineOfTurnsHasTheBitsOfThePlainOneOnEveryInstructionSet) {
+  std::vector<double> turns{0.0, -0.0, 1e-300, 1e9, -1e9, 1e15};
+  for (int k = -16; k <= 16; ++k)
+    for (const double off : {-1e-15, 0.0, 1e-15}) turns.push_back(k / 8.0 + off);
+  const Random random(7);
+  for (std::uint64_t i = 0; i < 2001; ++i) turns.push_back(random.uniform(i, -20.0, 20.0));
+  for (const std::string& set : instructionSets()) {
+    std::vector<double> cos = turns;
+    forceInstructionSet(set);
+    batchCosTurns(cos.data(), cos.size(), cos.data());
+    forceInstructionSet("");
+    for (std::size_t i = 0; i < turns.size(); ++i)
+      ASSERT_TRUE(sameBits(cos[i], sinCosTurns(turns[i]).cos)) << set << ", " << turns[i];
+  }
+}
+
 TEST(MathBatch, ArcTangentHasTheBitsOfThePlainOneOnEveryInstructionSet) {
   std::vector<double> y, x;
   for (const double a : {0.0, -0.0, 1.0, -1.0, 1e-300, -1e300})

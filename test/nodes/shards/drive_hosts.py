@@ -5,177 +5,77 @@
 shards, walkers tread, and requests go through the wrong shard. Compares the sums of the hashes of
 the shards with the hashes of the single nodes, and prints a table.
 
+Then the link of shard 1 is down for 5 s of wall time while the clock goes on, without treads and
+requests.
+
 usage: drive_hosts.py TICKS SHARDS"""
-import collections
-import math
+import subprocess
 import sys
 import threading
 import time
 
 import rospy
-from geometry_msgs.msg import Point, PointStamped, TransformStamped, Vector3, Vector3Stamped
-from sensor_msgs.msg import PointCloud2
-from std_msgs.msg import Header
-from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import ForestState, GrassCut, GrassState, TreadEvent
-from vegetation_sim.srv import (ApplyForce, CutBranch, CutGrass, FindBranch, GetTree, Grab, MoveGrab, Release,
-                                SampleGrass, Tread)
+from diagnostic_msgs.msg import DiagnosticArray
+from vegetation_sim.srv import GetTree
 
 from forest_rig import RATE, time_of
-from grass_rig import step
 from scan_rig import cloud_of
-from waiting import SimulatedClock, wait_for
+from sharded_world import FIRST, Requests, World
+from waiting import wait_for
 
-FIRST, AHEAD = 1000 * RATE, 4  # first tick; how far stamps of treads and requests are ahead
 WARM_UP = 1.0  # clouds are compared after this time [s]
-MASK = (1 << 64) - 1
-HANDS = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]  # trunks beside the borders [m]
+CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
 
 
-class States:
-    """Hashes and bytes of the states of one topic, by tick."""
+class CutLink:
+    """The link of the host of shard 1 is down, and what is said about it."""
 
-    def __init__(self, topic, message_type, count, hash_of):
-        self.count, self.bytes = count, 0
-        self.sums, self.heard = collections.Counter(), collections.Counter()
-        self.arrived = threading.Condition()
-        self._type, self._hash_of = message_type, hash_of
-        rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
+    def __init__(self):
+        self.said = set()
+        rospy.Subscriber('/diagnostics', DiagnosticArray, self._on_diagnostics)
+        subprocess.check_call(['ip', 'link', 'set', 'link_2', 'down'])
+        self._asking = threading.Thread(target=self._ask)
+        self._asking.start()
 
-    def _on_message(self, raw):
-        message = self._type().deserialize(raw._buff)
-        with self.arrived:
-            self.bytes += len(raw._buff)
-            self.sums[message.header.stamp] += self._hash_of(message)
-            self.heard[message.header.stamp] += 1
-            self.arrived.notify_all()
+    def _on_diagnostics(self, message):
+        self.said |= {'%s: %s' % (s.name, s.message) for s in message.status if 'no message for 3 s' in s.message}
 
-    def wait(self, stamp):
-        with self.arrived:
-            if not self.arrived.wait_for(lambda: self.heard[stamp] >= self.count, 60.0):
-                raise AssertionError('no states of %s: %d of %d' % (stamp, self.heard[stamp], self.count))
+    def _ask(self):
+        get_tree = rospy.ServiceProxy('/forest_0/get_tree', GetTree)
+        self.said |= {a.message for a in [get_tree(tree=i) for i in range(16)] if not a.success}
 
-    def hashes(self):
-        return {stamp: sum_ & MASK for stamp, sum_ in self.sums.items() if self.heard[stamp] == self.count}
+    def join(self):
+        subprocess.check_call(['ip', 'link', 'set', 'link_2', 'up'])
+        self._asking.join()
 
 
-class World:
-    """All nodes of the scene, and what acts on them."""
-
-    def __init__(self, shards):
-        self.shards, self.tick = shards, FIRST
-        self.states = {}
-        for kind, message_type, hash_of in (('forest', ForestState, lambda m: m.trees_hash),
-                                            ('grass', GrassState, lambda m: m.hash)):
-            self.states[kind] = (States('/%s/state' % kind, message_type, shards, hash_of),
-                                 States('/whole/%s/state' % kind, message_type, 1, hash_of))
-        self.clouds = [{}, {}]
-        for cloud, topic in zip(self.clouds, ('/lidar/points', '/whole/lidar/points')):
-            rospy.Subscriber(topic, PointCloud2, lambda m, c=cloud: c.update({m.header.stamp: m}))
-        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100, tcp_nodelay=True)
-        self.tread = rospy.Publisher('/tread', TreadEvent, queue_size=1000, tcp_nodelay=True)
-        self.clock = SimulatedClock()
-        nodes = 2 * shards + 2
-        self.clock.wait_for_listeners(nodes + 4)  # wind, two scanners and this process
-        wait_for(lambda: self.tread.get_num_connections() == shards + 1, 'readers of /tread')
-        wait_for(lambda: self.tf.get_num_connections() >= nodes, 'readers of /tf')
-
-    def stamp(self, ahead=0):
-        return time_of(self.tick + ahead)
-
-    def run_tick(self):
-        self.clock.set(self.stamp(1) + rospy.Duration(0.5 / RATE))
-        self.tick += 1
-        for pair in self.states.values():
-            for states in pair:
-                states.wait(self.stamp())
-
-    def is_joined(self):
-        """Returns whether each shard answers for all."""
-        places = [Point(x, y, 0.0) for x in (-11.0, -1.0, 1.0, 11.0) for y in (-11.0, -1.0, 1.0, 11.0)]
-        for shard in range(self.shards):
-            get_tree = rospy.ServiceProxy('/forest_%d/get_tree' % shard, GetTree)
-            sample = rospy.ServiceProxy('/grass_%d/sample' % shard, SampleGrass)
-            if not sample(points=places).success or not all(get_tree(tree=i).success for i in range(16)):
-                return False
-        return True
-
-    def show_frames(self):
-        part = (self.tick - FIRST) / 300.0
-        places = {'robot': (3.0 * math.sin(2.0 * part), 1.2 * math.cos(1.3 * part), 1.0),
-                  'lidar': (-8.0 + 4.0 * part, 0.3, 1.5)}
-        message = TFMessage()
-        for name, (x, y, z) in places.items():
-            frame = TransformStamped(header=Header(stamp=self.stamp(1), frame_id='map'), child_frame_id=name)
-            frame.transform.translation = Vector3(x, y, z)
-            frame.transform.rotation.w = 1.0
-            message.transforms.append(frame)
-        self.tf.publish(message)
-
-    def walk(self):
-        for walker in range(6):
-            angle = 0.02 * (self.tick - FIRST) + walker
-            message = step('walker_%d' % walker, 11.0 * math.sin(angle), 11.0 * math.sin(1.4 * angle + walker))
-            message.header = Header(stamp=self.stamp(AHEAD), frame_id='map')
-            self.tread.publish(message)
-
-    def ask(self, kind, shard, service, service_type, **request):
-        """Sends a request through a shard, and to the single node; returns both answers."""
-        out = []
-        for name in ('/%s_%d' % (kind, shard), '/whole/%s_all' % kind):
-            proxy = rospy.ServiceProxy('%s/%s' % (name, service), service_type)
-            fields = dict(request, **({'id': request['id'][len(out)]} if 'id' in request else {}))
-            answer = proxy(**fields)
-            if not answer.success:
-                raise AssertionError('%s/%s: %s' % (name, service, answer.message))
-            out.append(answer)
-        return out
-
-
-def in_map(x, y, z):
-    return PointStamped(header=Header(frame_id='map'), point=Point(x, y, z))
-
-
-class Requests:
-    """Requests through each shard in turn, for what others own."""
-
-    def __init__(self, world):
-        self.world, self.held, self.sent = world, [], 0
-
-    def send(self, kind, service, service_type, **request):
-        self.sent += 1
-        return self.world.ask(kind, self.sent % self.world.shards, service, service_type, **request)
-
-    def act(self, age):
-        """Acts at the tick of this age, in a cycle of 100 ticks."""
-        phase, hand = age % 100, HANDS[age // 100 % len(HANDS)]
-        stamp = self.world.stamp(AHEAD)
-        if phase == 10:
-            target = in_map(hand[0] + 0.15, hand[1] + 0.1, 1.9)
-            self.held.append([a.id for a in self.send(
-                'forest', 'grab', Grab, nearest=True, point=in_map(*hand, 1.8), target=target, stamp=stamp)])
-        elif phase == 30:
-            self.send('forest', 'move_grab', MoveGrab, id=self.held[-1], stamp=stamp,
-                      target=in_map(hand[0] - 0.15, hand[1] + 0.2, 1.9))
-        elif phase == 45:
-            found = self.send('forest', 'find_branch', FindBranch, point=in_map(-hand[0], hand[1], 1.5))
-            if found[0].tree != found[1].tree:
-                raise AssertionError('find_branch: %s' % found)
-            force = Vector3Stamped(header=Header(frame_id='map'), vector=Vector3(40.0, 20.0, 0.0))
-            self.send('forest', 'apply_force', ApplyForce, tree=found[0].tree, branch=found[0].branch,
-                      along=found[0].along, force=force, duration=0.3, stamp=stamp)
-        elif phase == 60:
-            self.send('forest', 'release', Release, id=self.held[-1], stamp=stamp)
-        elif phase == 70:
-            self.send('forest', 'cut_branch', CutBranch, tree=age // 100 % 16, branch=5, stamp=stamp)
-        elif phase == 20:
-            self.send('grass', 'tread', Tread, header=Header(stamp=stamp, frame_id='map'),
-                      points=[Point(-10.0, hand[0], 0.0), Point(10.0, hand[1], 0.0), Point(hand[0], -10.0, 0.0)])
-        elif phase == 50:
-            swath = [Point(x, y, 0.0) for x, y in ((-8.0, 3.0), (8.0, 3.0), (0.0, 10.0))]
-            cut = GrassCut(outline=[Point(-6.0, -2.0, 0.0), Point(6.0, 2.0 + 0.01 * age, 0.0)], radius=1.0,
-                           height=0.12, swath=swath)
-            self.send('grass', 'cut', CutGrass, header=Header(stamp=stamp, frame_id='map'), cut=cut)
+def pass_partition(world, requests):
+    """Returns the number of ticks without the link, and the time until the states of all of them have
+    come after it is up again [s]."""
+    for _ in range(CALM):  # treads and requests with stamps ahead are done
+        world.show_frames()
+        world.run_tick()
+    link, pause = CutLink(), threading.Event()
+    begin, first = time.monotonic(), world.tick
+    world.alive -= 1
+    while time.monotonic() < begin + CUT:
+        world.show_frames()
+        world.run_tick()
+        pause.wait(1.0 / RATE)
+    link.join()
+    ticks = world.tick - first
+    world.alive += 1
+    begin = time.monotonic()
+    world.wait_for_states()
+    seconds = time.monotonic() - begin
+    for age in range(AFTER):
+        world.show_frames()
+        world.walk()
+        requests.act(age)
+        world.run_tick()
+    for words in sorted(link.said):
+        print('while the link is down: ' + words)
+    return ticks, seconds
 
 
 def main():
@@ -196,23 +96,21 @@ def main():
         requests.act(age)
         world.run_tick()
     seconds = time.monotonic() - begin
+    bytes_ = {kind: [states.bytes * RATE / (ticks + 5.0) for states in pair] for kind, pair in world.states.items()}
+    last = world.stamp()
+    print('%d ticks without the link; %.1f s after it is up all states have come' % pass_partition(world, requests))
     print('%-10s %8s %8s %10s %14s %14s' % ('state', 'ticks', 'equal', 'hashes', 'shards [B/s]', 'one node [B/s]'))
     good = True
-    for kind, (divided, whole) in world.states.items():
-        sums, hashes = divided.hashes(), whole.hashes()
-        both = [stamp for stamp in hashes if stamp in sums]
-        equal = [stamp for stamp in both if sums[stamp] == hashes[stamp]]
-        good = good and len(both) >= ticks and equal == both
-        rate = RATE / (ticks + 5.0)
-        print('%-10s %8d %8d %10d %14.0f %14.0f' % (
-            kind, len(both), len(equal), len({hashes[stamp] for stamp in both}), divided.bytes * rate,
-            whole.bytes * rate))
+    for kind in world.states:
+        both, equal, hashes = world.compare(kind)
+        good = good and len(both) >= ticks + CALM + AFTER and equal == both
+        print('%-10s %8d %8d %10d %14.0f %14.0f' % (kind, len(both), len(equal), hashes, *bytes_[kind]))
         if equal != both:
             print('first difference %d ticks after the start' % round(
                 (min(set(both) - set(equal)) - time_of(FIRST)).to_sec() * RATE))
-    # The first sweeps come before all shards know where the lidars are.
+    # The first sweeps come before all shards know where the lidars are. Without a link trees stand still.
     begun = time_of(FIRST) + rospy.Duration(WARM_UP)
-    common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if s > begun)
+    common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if begun < s < last)
     alike = [s for s in common if cloud_of(world.clouds[0][s]).tobytes() == cloud_of(world.clouds[1][s]).tobytes()]
     print('%-10s %8d %8d' % ('clouds', len(common), len(alike)))
     print('%d requests through other shards; %.1f ms per tick' % (requests.sent, 1000.0 * seconds / ticks))

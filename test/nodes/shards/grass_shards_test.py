@@ -12,7 +12,7 @@ import rostest
 from geometry_msgs.msg import Point, PointStamped
 from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import Header
-from vegetation_sim.msg import ErrorCode, GrassCut, GrassState, TreadEvent
+from vegetation_sim.msg import ErrorCode, GrassColour, GrassColours, GrassCut, GrassState, TreadEvent
 
 from forest_rig import time_of
 from grass_rig import Meadow, step
@@ -146,7 +146,20 @@ class GrassShards(unittest.TestCase):
                    if m.press_stamps[press] == expected}
         self.assertEqual(at_once, {0, 1})
 
-    def test_5_a_silent_owner_is_named(self):
+    def test_5_colours_reach_all_shards(self):
+        places = [(-10.0, 3.0), (10.0, -3.0)]  # of both owners
+        before = [node.samples(places) for node in self.shards]
+        disc = GrassColour(x=0.0, y=0.0, radius=40.0, colour=1.0, weight=50.0)
+        self.ask(self.shards[1], 'set_colours', colours=[disc])
+        colours = Log('/grass/colours', GrassColours)
+        colours.wait(lambda all: all and all[-1].colours == [disc], 'the disc', lambda: self.run_ticks(1))
+        self.assertEqual(len(colours._subscriber.impl.connections), 1)
+        self.run_ticks(2)
+        for node, old in zip(self.shards, before):
+            for was, now in zip(old, node.samples(places)):
+                self.assertGreater(now.colour, was.colour + 0.2, (node.name, now.position))
+
+    def test_6_a_silent_owner_is_named(self):
         _, _, process = slave('/grass_1').getPid('/test')
         os.kill(process, 9)
         answer = self.shards[0].cut(

@@ -16,33 +16,85 @@ ShardNode announced(std::uint32_t shard, std::uint32_t shards, const std::string
   out.shard = shard;
   out.shards = shards;
   out.node = node;
+  out.open = true;
+  out.started = ros::Time(100.0 + shard);
+  out.messages = "1a 2b";
+  out.layout_hash = 7;
+  out.terrain_hash = 8;
+  out.rate = 30;
   return out;
 }
 
+constexpr ShardRegistry::SteadyTime BEGIN{};
+constexpr std::chrono::seconds SECOND{1};
+
 TEST(ShardRegistry, KnowsTheLatestNodeOfEachShard) {
-  ShardRegistry registry({1, 3}, "/own");
+  ShardRegistry registry(announced(1, 3, "/own"));
   EXPECT_EQ(registry.describeMissing(), "0, 2");
-  registry.hear(announced(1, 3, "/own"));
-  registry.hear(announced(2, 3, "/first"));
+  registry.hear(announced(1, 3, "/own"), BEGIN);
+  ShardNode starting = announced(2, 3, "/first");
+  starting.open = false;
+  registry.hear(starting, BEGIN);
+  EXPECT_EQ(registry.describeMissing(), "0, 2");
+  registry.hear(announced(2, 3, "/first"), BEGIN);
   const auto first = registry.find(2);
   first->overdue = 1;
   EXPECT_EQ(first->node, "/first");
-  registry.hear(announced(2, 3, "/second"));
+  registry.hear(announced(2, 3, "/first"), BEGIN);
+  EXPECT_EQ(registry.find(2)->overdue, 1);
+  ShardNode again = announced(2, 3, "/first");
+  again.started = ros::Time(200.0);
+  registry.hear(again, BEGIN);
+  EXPECT_EQ(registry.find(2)->overdue, 0);
+  registry.hear(announced(2, 3, "/second"), BEGIN);
   EXPECT_EQ(registry.find(2)->node, "/second");
   EXPECT_EQ(registry.find(2)->overdue, 0);
   EXPECT_EQ(registry.describeMissing(), "0");
   EXPECT_EQ(errorOf([&] { registry.find(0); }), "shard 0 of 3 is animated by no node");
 }
 
+TEST(ShardRegistry, NamesSilentNodes) {
+  ShardRegistry registry(announced(1, 3, "/own"));
+  registry.hear(announced(0, 3, "/first"), BEGIN);
+  registry.hear(announced(2, 3, "/second"), BEGIN);
+  EXPECT_EQ(registry.describeSilent(BEGIN + 3 * SECOND), "");
+  registry.hear(announced(2, 3, "/second"), BEGIN + 2 * SECOND);
+  EXPECT_EQ(registry.describeSilent(BEGIN + 4 * SECOND), "0 (/first)");
+  EXPECT_EQ(registry.describeSilent(BEGIN + 6 * SECOND), "0 (/first), 2 (/second)");
+  registry.hear(announced(0, 3, "/first"), BEGIN + 6 * SECOND);
+  EXPECT_EQ(registry.describeSilent(BEGIN + 6 * SECOND), "2 (/second)");
+}
+
 TEST(ShardRegistry, NamesNodesThatDoNotFit) {
-  ShardRegistry registry({1, 3}, "/own");
-  EXPECT_EQ(errorOf([&] { registry.hear(announced(1, 3, "/other")); }),
+  ShardRegistry registry(announced(1, 3, "/own"));
+  const auto refusal = [&](const ShardNode& other) {
+    return errorOf([&] { registry.hear(other, BEGIN); });
+  };
+  EXPECT_EQ(refusal(announced(1, 3, "/other")),
             "/other is shard 1 of 3, as this node, /own, is; a shard has one node");
-  EXPECT_EQ(errorOf([&] { registry.hear(announced(0, 2, "/other")); }),
+  EXPECT_EQ(refusal(announced(0, 2, "/other")),
             "/other is shard 0 of 2; allowed is a shard from 0 to 2 of 3");
-  EXPECT_EQ(errorOf([&] { registry.hear(announced(3, 3, "/other")); }),
+  EXPECT_EQ(refusal(announced(3, 3, "/other")),
             "/other is shard 3 of 3; allowed is a shard from 0 to 2 of 3");
+  const auto changed = [](auto member, auto value) {
+    ShardNode out = announced(0, 3, "/other");
+    out.*member = value;
+    return out;
+  };
+  const std::string other = "/other is shard 0 of 3 with ",
+                    allowed = "; allowed is that of this node, /own, ";
+  EXPECT_EQ(refusal(changed(&ShardNode::messages, "1a 3c")),
+            other + "the version of messages = 1a 3c" + allowed + "1a 2b");
+  EXPECT_EQ(refusal(changed(&ShardNode::terrain_hash, 9u)),
+            other + "the hash of the terrain = 9" + allowed + "8");
+  EXPECT_EQ(refusal(changed(&ShardNode::layout_hash, 9u)),
+            other + "the hash of the layout = 9" + allowed + "7");
+  EXPECT_EQ(refusal(changed(&ShardNode::rate, 20u)), other + "state_rate = 20" + allowed + "30");
   EXPECT_EQ(registry.describeMissing(), "0, 2");
+  // Of two nodes the one that has started later does not run.
+  EXPECT_TRUE(registry.isEarlier(announced(0, 2, "/other")));
+  EXPECT_FALSE(registry.isEarlier(announced(2, 2, "/other")));
+  EXPECT_FALSE(registry.isEarlier(announced(1, 2, "/own")));
 }
 
 ShardReply<Pick::Response> reply(std::uint32_t shard, double distance, std::uint8_t error,

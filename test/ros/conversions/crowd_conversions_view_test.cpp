@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -62,7 +63,7 @@ double turnBetween(double a, double b) {
 
 TEST(CrowdConversionsView, AViewDiffersFromTheWalkersByHalfAStep) {
   Strollers s;
-  int swinging = 0;
+  int swinging = 0, turning = 0;
   for (int tick = 0; tick < 120; ++tick) {
     s.step();
     const std::vector<WalkerView> view = s.view();
@@ -74,6 +75,9 @@ TEST(CrowdConversionsView, AViewDiffersFromTheWalkersByHalfAStep) {
       expectNear(seen.velocity, w.velocity, HALF * 1e-3);
       EXPECT_NEAR(turnBetween(seen.heading, w.heading), 0.0, HALF * 2.0 * PI / 65536);
       EXPECT_NEAR(std::remainder(seen.gait - w.gait, 1.0), 0.0, HALF / 65536);
+      EXPECT_NEAR(seen.turn_rate, std::clamp(w.turn_rate, -127.0 / 80.0, 127.0 / 80.0),
+                  HALF / 80.0);
+      turning += std::fabs(seen.turn_rate) > 0.1;
       EXPECT_NEAR(seen.height, w.height, HALF * 1e-4);
       EXPECT_NEAR(view[i].ground, s.crowd.terrain().height(w.position.x, w.position.y),
                   HALF * 1e-3);
@@ -86,6 +90,7 @@ TEST(CrowdConversionsView, AViewDiffersFromTheWalkersByHalfAStep) {
     }
   }
   EXPECT_GT(swinging, 1000);
+  EXPECT_GT(turning, 1000);
 }
 
 // The ends of limbs follow from all numbers together.
@@ -135,13 +140,13 @@ TEST(CrowdConversionsView, AStandingFootOfAViewStaysWhereItIs) {
   EXPECT_GT(stood, 1000);
 }
 
-TEST(CrowdConversionsView, AViewHas29BytesAWalker) {
+TEST(CrowdConversionsView, AViewHas30BytesAWalker) {
   const auto bytesOf = [](std::uint32_t walkers) {
     std::vector<crowd::Walker> all(walkers);
     for (std::uint32_t i = 0; i < walkers; ++i) all[i].id = i;
     return ros::serialization::serializationLength(toView(all, terrain::HeightMap()));
   };
-  EXPECT_EQ(bytesOf(1001) - bytesOf(1), 29u * 1000u);
+  EXPECT_EQ(bytesOf(1001) - bytesOf(1), 30u * 1000u);
 }
 
 TEST(CrowdConversionsView, RejectInvalidViews) {
@@ -152,6 +157,7 @@ TEST(CrowdConversionsView, RejectInvalidViews) {
       {"ground has 3 numbers", [](CrowdView& v) { v.ground.push_back(0); }},
       {"heading has 0 numbers", [](CrowdView& v) { v.heading.clear(); }},
       {"gait has 1 numbers", [](CrowdView& v) { v.gait.pop_back(); }},
+      {"turn_rate has 1 numbers", [](CrowdView& v) { v.turn_rate.pop_back(); }},
       {"height has 1 numbers", [](CrowdView& v) { v.height.pop_back(); }},
       {"velocity_x has 1 numbers", [](CrowdView& v) { v.velocity_x.pop_back(); }},
       {"velocity_y has 1 numbers", [](CrowdView& v) { v.velocity_y.pop_back(); }},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -180,6 +181,69 @@ TEST_F(PlantFiles, HaveRigidPartsByTheWordsOfTheirKind) {
   EXPECT_NE(faults.text().find("rigid has 501 characters, more than the 500 allowed"),
             std::string::npos)
       << faults.text();
+}
+
+// S3-29: a mesh keeps textures, colours and normals of its materials, in files that may be opened.
+TEST_F(PlantFiles, KeepTheLookOfTheirMaterials) {
+  write("shrub.obj",
+        "mtllib shrub.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 2\nv 1 0 2\nvt 0 0\nvt 1 0\nvt 0 1\nvt 3 1\n"
+        "vn 0 -0.6 0.8\nusemtl blade\nf 1/1/1 2/2/1 3/3/1\nusemtl berry\nf 2/2/1 4/4/1 3/3/1\n"
+        "usemtl away\nf 1/1/1 4/4/1 3/3/1\n");
+  write("shrub.mtl",
+        "newmtl blade\nKd 0 0 0\nmap_Kd leaf.png\nnewmtl berry\nKd 0.8 0.1 0.2\n"
+        "newmtl away\nKd 1 1 1\nmap_Kd ../../../../etc/hostname\n");
+  write("leaf.png", "picture");
+  canopy::Layout layout;
+  layout.kinds.resize(1);
+  layout.kinds[0].shape = canopy::PlantShape::MESH;
+  layout.kinds[0].file = (folder_ / "shrub.obj").string();
+  Faults faults;
+  canopy::Layout of_a_node = layout;
+  loadForms(of_a_node, folder_.string(), faults);
+  loadPublishedForms(layout, {folder_.string()}, faults);
+  ASSERT_TRUE(faults.empty()) << faults.text();
+  EXPECT_TRUE(of_a_node.kinds[0].form->looks.empty());  // it draws nothing
+  const canopy::Form& form = *layout.kinds[0].form;
+  EXPECT_EQ(form.hash, of_a_node.kinds[0].form->hash);
+  ASSERT_EQ(form.materials.size(), 3U);
+  ASSERT_EQ(form.looks.size(), 3U);
+  const auto materialOf = [&](std::size_t leaf) {
+    return form.materials[form.looks[form.leaves[leaf].look - 1].material];
+  };
+  EXPECT_EQ(materialOf(0).texture, "leaf.png");
+  EXPECT_EQ(materialOf(0).colour, Vec3::Ones());  // black is written beside a texture
+  ASSERT_TRUE(materialOf(0).picture);
+  EXPECT_EQ(*materialOf(0).picture, "picture");
+  EXPECT_NEAR(materialOf(1).colour.x(), 0.8, 1e-6);
+  EXPECT_TRUE(materialOf(1).texture.empty());
+  EXPECT_FALSE(materialOf(2).picture);
+  EXPECT_NE(materialOf(2).fault.find("hostname' cannot be opened here"), std::string::npos)
+      << materialOf(2).fault;
+  const canopy::FaceLook& look = form.looks[form.leaves[0].look - 1];
+  EXPECT_EQ(look.uv[1], (std::array<float, 2>{1.F, 0.F}));
+  EXPECT_NEAR(static_cast<double>(look.normal[2]), 0.8, 1e-6);
+  EXPECT_EQ(form.looks[1].uv[1], (std::array<float, 2>{1.F, 1.F}));  // repeats end at the edge
+}
+
+// S3-29: what is missing or too large is a fault of the material alone.
+TEST_F(PlantFiles, TexturesThatCannotBeOpenedAreNamed) {
+  write("shrub.mtl", "newmtl green\nmap_Kd huge.png\nnewmtl brown\nmap_Kd none.png\n");
+  write("shrub.obj", std::string("mtllib shrub.mtl\n") + SHRUB);
+  std::filesystem::resize_file(write("huge.png", ""), std::uintmax_t{17} << 20);
+  canopy::Layout layout;
+  layout.kinds.resize(1);
+  layout.kinds[0].shape = canopy::PlantShape::MESH;
+  layout.kinds[0].file = (folder_ / "shrub.obj").string();
+  Faults faults;
+  loadPublishedForms(layout, {folder_.string()}, faults);
+  ASSERT_TRUE(faults.empty()) << faults.text();
+  ASSERT_EQ(layout.kinds[0].form->materials.size(), 2U);
+  EXPECT_EQ(layout.kinds[0].form->materials[0].fault,
+            "texture 'huge.png' cannot be opened here, or has more than 16777216 bytes");
+  EXPECT_NE(layout.kinds[0].form->materials[1].fault.find("'none.png'"), std::string::npos);
+  // Materials are read from the folder of the mesh alone, and not through links to devices.
+  write("shrub.obj", std::string("mtllib /dev/zero.mtl\nmtllib ../shrub.mtl\n") + SHRUB);
+  EXPECT_EQ(loadMesh((folder_ / "shrub.obj").string(), MeshAxes::TURNED).materials.size(), 0U);
 }
 
 // A layout with a mesh survives the conversion to a message, and a changed file is detected.

@@ -71,17 +71,21 @@ TEST(SubscribedCrowd, KeepsItsStylesWhenOthersAreInvalid) {
             std::string::npos);
 }
 
-TEST(SubscribedCrowd, EstimatesTurnsFromTwoMessages) {
-  SubscribedCrowd crowd;
-  AgentStates first = onePerson(NANOSECONDS_PER_SECOND), second = onePerson(NANOSECONDS_PER_SECOND);
-  second.header.stamp = toStamp(NANOSECONDS_PER_SECOND + NANOSECONDS_PER_SECOND / 10);
-  crowd::Walker turned;
-  turned.heading = 0.05;
-  second.agents[0] = toMsg(turned, terrain::HeightMap());
-  crowd.apply(first);
-  EXPECT_EQ(crowd.people()[0].walker.turn_rate, 0.0);
-  crowd.apply(second);
-  EXPECT_NEAR(crowd.people()[0].walker.turn_rate, 0.5, 1e-9);
+// S2-35: the first message says how fast a person turns.
+TEST(SubscribedCrowd, PeopleTurnAsFastAsTheMessageSays) {
+  crowd::Walker turning;
+  turning.turn_rate = 0.5;
+  SubscribedCrowd crowd, rounded;
+  AgentStates states = onePerson(NANOSECONDS_PER_SECOND);
+  states.agents[0] = toMsg(turning, terrain::HeightMap());
+  crowd.apply(states);
+  ASSERT_EQ(crowd.people().size(), 1u);
+  EXPECT_EQ(crowd.people()[0].walker.turn_rate, 0.5);
+  CrowdView view = toView({turning}, terrain::HeightMap());
+  view.header = states.header;
+  rounded.apply(view);
+  ASSERT_EQ(rounded.people().size(), 1u);
+  EXPECT_NEAR(rounded.people()[0].walker.turn_rate, 0.5, 0.5 / 80.0);
 }
 
 TEST(SubscribedCrowd, ForgetsPeopleOfTheFutureAndSilentPeople) {

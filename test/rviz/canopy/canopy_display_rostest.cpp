@@ -1,7 +1,14 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <ros/param.h>
+#include <unistd.h>
+
+#include <QImage>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
+#include "ros/params/plant_files.h"
 #include "rviz/canopy/canopy_display.h"
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
@@ -153,6 +160,79 @@ class CanopyDisplayTest : public testing::Test {
   CanopyRig& rig{*shared_rig};
   CanopyDisplay* display{nullptr};
 };
+
+/// A folder with a mesh of one card, 1 m wide and 2 m high, which a scene may name.
+class CardFolder {
+ public:
+  CardFolder() {
+    std::filesystem::create_directories(folder_);
+    ros::param::set("/resource_folders", std::vector<std::string>{folder_.string()});
+    std::ofstream(folder_ / "card.obj")
+        << "mtllib card.mtl\nv -0.5 0 0\nv 0.5 0 0\nv 0.5 0 2\nv -0.5 0 2\nvt 0 0\nvt 1 0\n"
+           "vt 1 1\nvt 0 1\nvn 0 -1 0\nusemtl leaf\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n";
+    std::ofstream(folder_ / "card.mtl") << "newmtl leaf\nKd 1 1 1\nmap_Kd leaf.png\n";
+  }
+  ~CardFolder() {
+    ros::param::del("/resource_folders");
+    std::filesystem::remove_all(folder_);
+  }
+  /// Paints the texture: the upper half red, the lower half transparent.
+  void paint() const {
+    QImage image(64, 64, QImage::Format_ARGB32);
+    image.fill(qRgba(0, 0, 255, 0));
+    for (int row = 0; row < 32; ++row)
+      for (int column = 0; column < 64; ++column)
+        image.setPixel(column, row, qRgba(255, 0, 0, 255));
+    image.save(QString::fromStdString((folder_ / "leaf.png").string()));
+  }
+  void damage() const { std::ofstream(folder_ / "leaf.png") << "no picture"; }
+  canopy::Layout layout() const {
+    canopy::Layout out = CanopyRig::shrubs(1);
+    out.kinds[0].shape = canopy::PlantShape::MESH;
+    out.kinds[0].file = (folder_ / "card.obj").string();
+    out.kinds[0].height = 2.0;
+    out.plants[0].position = Vec3::Zero();
+    Faults faults;
+    loadForms(out, folder_.string(), faults);
+    EXPECT_TRUE(faults.empty()) << faults.text();
+    return out;
+  }
+
+ private:
+  std::filesystem::path folder_{std::filesystem::temp_directory_path() /
+                                ("card_" + std::to_string(::getpid()))};
+};
+
+double shareOfRed(CanopyRig& rig) {
+  const std::vector<std::uint8_t> pixels = rig.picture();
+  double out = 0.0;
+  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3)
+    out += pixels[i] > 3 * pixels[i + 1] && pixels[i] > 3 * pixels[i + 2] ? 1.0 : 0.0;
+  return 3.0 * out / static_cast<double>(pixels.size());
+}
+
+// S3-29: a mesh is drawn with its texture and what is transparent in it; a damaged texture is named
+// and the mesh is plain.
+TEST_F(CanopyDisplayTest, MeshesHaveTheirTextures) {
+  const CardFolder folder;
+  folder.paint();
+  rig.plant(folder.layout());
+  rig.lookAt(1.0f, 0.1, 5.0);
+  rig.blow(1);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().plants == 1; }));
+  rig.frames(5);
+  const double half = shareOfRed(rig);
+  EXPECT_GT(half, 0.01);
+  folder.damage();
+  rig.plant(folder.layout());
+  rig.blow(1);
+  ASSERT_TRUE(rig.until([&] { return shareOfRed(rig) < 0.001; }));
+  EXPECT_EQ(display->drawn().drawn, 2u);
+  EXPECT_TRUE(rig.until([&] {
+    const std::string text = statusOf(*display, "Textures");
+    return text.find("texture 'leaf.png' is no picture of a known format") != std::string::npos;
+  })) << statusOf(*display, "Textures");
+}
 
 // S3-01, S3-30: the leaves of each plant appear in front of a sky, on grass.
 TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {

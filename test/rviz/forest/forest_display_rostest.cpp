@@ -50,6 +50,20 @@ class ForestDisplayTest : public testing::Test {
   ForestDisplay* display{nullptr};
 };
 
+// The property replaces shadows that are painted on the ground by moving ones, and back.
+// moving_shadows_test has their motion.
+TEST_F(ForestDisplayTest, ShadowsMoveByAProperty) {
+  ASSERT_TRUE(drawn());
+  const auto seen = [&](bool moving) {
+    display->subProp("Moving Shadows")->setValue(moving);
+    rig.frames(5);
+    return steadyPicture(rig);
+  };
+  const std::vector<std::uint8_t> painted = seen(false), moving = seen(true), again = seen(false);
+  EXPECT_LT(rig.largestChange(painted, again), 0.5);
+  EXPECT_GT(rig.largestChange(painted, moving), 1.0);
+}
+
 // S2-16: trees are built from the layout at run time and are visible.
 TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   ASSERT_TRUE(drawn());

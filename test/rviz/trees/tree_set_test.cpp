@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "rviz/ground/ground_texture.h"
+#include "rviz/ground/shadow_painter.h"
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::view {

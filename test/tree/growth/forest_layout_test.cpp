@@ -149,6 +149,43 @@ TEST(Layout, ReadsRowsAndStages) {
   EXPECT_EQ(layout.trees[13].species, 1);
 }
 
+// S1-10: the factors of a tree scale stiffness, damping and load, and change nothing else.
+TEST(Layout, ReadsFactorsOfSingleTrees) {
+  Scenario scenario = Scenario::parse(
+      "forest: {species: [{name: oak}, {name: birch}], trees: [{species: oak, seed: 5},"
+      " {species: oak, seed: 5, stiffness: 0.5, damping: 2, wind: 3}, {species: birch},"
+      " {species: oak, seed: 6, wind: 3, damping: 2, stiffness: 0.5},"
+      " {species: birch, stiffness: 0.5, damping: 2, wind: 3}], tiles: [{count: 9, mix: {oak: "
+      "1}}]}",
+      "factors.yaml");
+  Faults faults;
+  const Layout layout =
+      readLayout(scenario.section("forest"), std::string(PACKAGE_FOLDER) + "/config/scenarios",
+                 terrain::HeightMap(), 1, faults);
+  ASSERT_EQ(faults.text() + scenario.faults().text(), "");
+  ASSERT_EQ(layout.species.size(), 4U);
+  EXPECT_EQ(layout.species[2].name, "oak (stiffness 0.5, damping 2, wind 3)");
+  EXPECT_EQ(layout.trees[0].species, 0);
+  EXPECT_EQ(layout.trees[1].species, 2);
+  EXPECT_EQ(layout.trees[3].species, 2);
+  EXPECT_EQ(layout.trees[4].species, 3);
+  for (std::uint32_t i = 0; i < 9; ++i) EXPECT_EQ(seedOf(layout, 5 + i).species, 0);
+  const terrain::HeightMap flat;
+  const Tree plain = growTree(layout, 0, flat), own = growTree(layout, 1, flat);
+  ASSERT_EQ(plain.skeleton.hash(), own.skeleton.hash());
+  const Wood a = woodOf(plain.skeleton, layout.species[0], Material::BEAM),
+             b = woodOf(own.skeleton, layout.species[2], Material::BEAM);
+  const Vec3 wind(4.0, 1.0, 0.0);
+  for (std::size_t i = 0; i < a.stiffness.size(); ++i) {
+    EXPECT_DOUBLE_EQ(b.stiffness[i], 0.5 * a.stiffness[i]);
+    EXPECT_NEAR(b.damping[i], 2.0 * std::sqrt(0.5) * a.damping[i], 1e-9 * a.damping[i]);
+    EXPECT_DOUBLE_EQ(b.own[i].drag, 3.0 * a.own[i].drag);
+    EXPECT_EQ(b.own[i].mass, a.own[i].mass);
+    EXPECT_NEAR(length(own.response[i].first), 6.0 * length(plain.response[i].first),
+                1e-9 * length(own.response[i].first));
+  }
+}
+
 class ScenarioFault : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 TEST_P(ScenarioFault, IsNamed) {
   Scenario scenario = Scenario::parse(GetParam().first, "bad.yaml");
@@ -191,6 +228,12 @@ INSTANTIATE_TEST_SUITE_P(
                   "rows[1]: has 2 plants in its rows; allowed are 0 to 0"),
         std::pair("forest: {species: [{name: oak}], motion: {drag: cubic}}",
                   "drag = 'cubic' is none of linear, quadratic"),
+        std::pair("forest: {species: [{name: oak}], trees: [{species: oak, stiffness: 0}]}",
+                  "trees[0]: stiffness = 0 is outside 0.01 to 100"),
+        std::pair("forest: {species: [{name: oak}], trees: [{species: oak, damping: -1}]}",
+                  "trees[0]: damping = -1 is outside 0 to 20"),
+        std::pair("forest: {species: [{name: oak}], trees: [{species: oak, wind: .inf}]}",
+                  "wind = inf is not finite"),
         std::pair("forest: {species: oak}", "species = 'oak' is not a list")));
 
 }  // namespace

@@ -246,14 +246,14 @@ PhysicsRig recoiling() {
 }
 
 // Checks every stamp of an interval, with four samples that are 5e-5 s apart, whenever something is
-// switched.
-Jump jumpsIn(PhysicsRig rig, Nanoseconds duration, double peak) {
+// switched. @param sample advances to a stamp and returns the angles.
+Jump jumpsIn(Nanoseconds start, Nanoseconds duration, double peak,
+             const std::function<Angles(Nanoseconds)>& sample) {
   constexpr Nanoseconds APART = 50000;
-  const Nanoseconds start = rig.now();
   std::vector<Angles> looks;
   Jump out;
   for (Nanoseconds t = APART; t <= duration; t += APART) {
-    looks.push_back(sampleAt(rig, start + t));
+    looks.push_back(sample(start + t));
     if (looks.size() < 4) continue;
     out.add(interpolate({looks[0], looks[1], 0.5, APART}, {looks[3], looks[2], 0.5, -APART}, peak));
     looks.erase(looks.begin());
@@ -269,12 +269,13 @@ TEST(HandOver, DemotionJumpsNeitherInAngleNorInRate) {
   Jump worst;
   int switches = 0;
   for (int i = 0; i < 4 * TICK_RATE; ++i) {
-    const PhysicsRig before = rig;
+    PhysicsRig before = rig;
     rig.advance();
     const PhysicsFigures a = before.forest.physicsFigures(), b = rig.forest.physicsFigures();
     if (a.blending == b.blending && a.branches == b.branches) continue;
     ++switches;
-    worst.add(jumpsIn(before, before.grid.timeOf(before.tick + 2) - before.now(), peak));
+    worst.add(jumpsIn(before.now(), before.grid.timeOf(before.tick + 2) - before.now(), peak,
+                      [&](Nanoseconds stamp) { return sampleAt(before, stamp); }));
   }
   std::printf("demotion: %d switches, %.1e rad, %.1e of peak rate\n", switches, worst.angle,
               worst.rate);
@@ -282,6 +283,44 @@ TEST(HandOver, DemotionJumpsNeitherInAngleNorInRate) {
   EXPECT_EQ(rig.forest.physicsFigures().branches, 0u);
   EXPECT_LT(worst.angle, LARGEST_JUMP);
   EXPECT_LT(worst.rate, 0.01);
+}
+
+// N10, S1-37: a whole tree blends back into its modes without a jump, with the default fade and
+// blend, and then moves to the bit as a tree that was never touched.
+TEST(HandOver, DemotionIntoModesJumpsNeitherInAngleNorInRate) {
+  for (const std::uint32_t id : {0u, 2u}) {
+    Clearing untouched = treesInModes(allOfIt());
+    const Tree tree = untouched.tree(id);
+    Clearing scene = touched(untouched, tree, id, 1.0);
+    constexpr double PEAK = 0.02;  // [rad/s] a rate that each of these trees has
+    Jump worst;
+    int switches = 0;
+    scene.advance(), untouched.advance();
+    for (int i = 0; i < 3 * TICK_RATE; ++i) {
+      Clearing before = scene;
+      scene.advance(), untouched.advance();
+      const PhysicsFigures a = before.forest.physicsFigures(), b = scene.forest.physicsFigures();
+      if (a.blending == b.blending && a.branches == b.branches) continue;
+      ++switches;
+      worst.add(jumpsIn(before.now(), before.grid.timeOf(before.tick + 2) - before.now(), PEAK,
+                        [&](Nanoseconds stamp) {
+                          before.forest.advance(stamp);
+                          return worldAngles(before, tree, id, stamp);
+                        }));
+    }
+    double off = 0.0;
+    const Angles back = worldAngles(scene, tree, id, scene.now()),
+                 never = worldAngles(untouched, tree, id, scene.now());
+    for (std::size_t i = 0; i < back.size(); ++i)
+      off = std::max(off, difference(back[i], never[i]));
+    std::printf("tree %u: %d switches, %.1e rad, %.1e of the rate of 0.02 rad/s\n", id, switches,
+                worst.angle, worst.rate);
+    EXPECT_GE(switches, 2);
+    EXPECT_EQ(scene.forest.physicsFigures().branches, 0u);
+    EXPECT_LT(worst.angle, LARGEST_JUMP);
+    EXPECT_LT(worst.rate, 0.01);
+    EXPECT_EQ(off, 0.0);
+  }
 }
 
 // S1-37: the visible motion is (1 - a) physical + a procedural with a = 3 u^2 - 2 u^3 over 1.5 s.

@@ -62,12 +62,21 @@ struct Design {
   double size{1.0}, children{1.0}, leaves{1.0}, angle{1.0}, noise{1.0};
 };
 
+/// Factors on the motion of one tree, which its designer chooses (paper 1, section 3); 1 leaves the
+/// species as it is.
+struct TreeFactors {
+  double stiffness{1.0};  ///< of all joints
+  double damping{1.0};    ///< damping ratio of all joints
+  double wind{1.0};       ///< drag, and so the load and the response in wind
+};
+
 void describe(FieldVisitor& visitor, Species& species);
 /// Visits the fields that are not part of describe(), of which a usual species has the default.
 void describeHabit(FieldVisitor& visitor, Species& species);
 void describeStrength(FieldVisitor& visitor, Species& species);
 void describeFluid(FieldVisitor& visitor, Species& species);
 void describe(FieldVisitor& visitor, Design& design);
+void describe(FieldVisitor& visitor, TreeFactors& factors);
 
 /// Returns the largest angle [rad] between a limb and its parent for their ratio of diameters; it
 /// falls linearly from angle_thin to angle_thick (S1-11).
@@ -85,6 +94,9 @@ void check(Species species, Faults& faults);
 
 /// Returns the species with the factors applied, clamped to the ranges.
 Species applyDesign(const Species& species, const Design& design);
+
+/// Returns the species with the factors on its wood and drag, and with their values in its name.
+Species applyFactors(const Species& species, const TreeFactors& factors);
 
 /// Returns the species at a stage of growth from 0 (seedling) to 1 (as it is): sizes, limbs and
 /// leaves times the factors of growthFactors(), clamped to the ranges.

@@ -81,6 +81,7 @@ class ForestBreaking(unittest.TestCase):
         self.assertGreater(size(vector(broken.piece.twist.linear)), 0.0)
         self.grabs.wait(lambda _: self.status(answer.id) is not None, 'the end of the grab')
         self.assertEqual(self.status(answer.id), GrabStatus.BRANCH_BROKEN)
+        self.assertIn('broke or was cut off', self.hands.move_grab(id=answer.id).message)
         force = self.forces.wait(lambda all: next(
             (f for m in all if m.header.stamp == broken.header.stamp
              for f in m.forces if f.grab == answer.id), None), 'the last force')

@@ -166,7 +166,8 @@ class ForestGrab(unittest.TestCase):
         self.assertEqual(len(self.hands.tree(TREE).grabs), 1)
         self.hands.run(RATE)
         self.assertEqual(self.hands.tree(TREE).grabs, [])
-        self.assertIn('is unknown; nothing is held', self.hands.move_grab(id=answer.id).message)
+        self.assertIn('id = %d has ended: its lease expired; nothing is held' % answer.id,
+                      self.hands.move_grab(id=answer.id).message)
 
     def test_a_killed_holder_loses_its_grab(self):
         before = self.hands.diagnostics()['Grabs ended by their lease']
@@ -230,6 +231,15 @@ class ForestGrab(unittest.TestCase):
         self.hands.run(RATE)
         self.assertIn(LIMB, self.hands.physical())
         self.assertLess(self.hands.point(LIMB, 0.3)[2], calm[2] - 0.01)
+        self.clock.run_until(lambda: not self.hands.physical(), 'the end', self.hands)
+
+    # S1-W3: the calibration run makes all branches of a tree physical, also without a force.
+    def test_a_whole_tree_is_physical_for_its_time(self):
+        answer = self.hands.apply_force(tree=TREE, branch=0, duration=0.5, whole_tree=True)
+        self.assertTrue(answer.success, answer.message)
+        self.hands.run(2)
+        tree = self.hands.tree(TREE)
+        self.assertEqual(list(tree.physical), list(range(len(tree.parents))))
         self.clock.run_until(lambda: not self.hands.physical(), 'the end', self.hands)
 
     def test_a_request_may_be_ahead(self):

@@ -48,6 +48,18 @@ TEST(ForestInputs, CountSensorsAboveTheLimit) {
   EXPECT_EQ(inputs.losses().lost, 2u);
 }
 
+// N6: a recorded force is replayed with the whole tree that it made physical.
+TEST(ForestInputs, AForceOfAWholeTreeSurvivesItsEvent) {
+  ForestInput force;
+  force.kind = ForestInput::FORCE;
+  force.push.point = {3, 7, 0.25};
+  force.push.until = TICK;
+  for (const bool whole : {false, true}) {
+    force.push.whole_tree = whole;
+    EXPECT_EQ(eventFromMsg(eventToMsg(force)).push.whole_tree, whole);
+  }
+}
+
 // N6: a flood of requests for later stamps blocks neither the wind nor the node's own events.
 TEST(ForestInputs, AcceptTheNodesOwnEventsInAFlood) {
   ForestInputs inputs(false);

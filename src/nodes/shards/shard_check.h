@@ -1,0 +1,27 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "nodes/shards/shard_registry.h"
+
+namespace vegetation_sim {
+
+/// Returns the md5 sums of types of messages, which identify their versions.
+template <class... Messages>
+std::string listMessages() {
+  std::string out;
+  for (const char* sum : {ros::message_traits::md5sum<Messages>()...})
+    out += (out.empty() ? "" : " ") + std::string(sum);
+  return out;
+}
+
+/// Waits until all processes that announce shards on a topic have been heard, at most 2 s of wall
+/// time. @throws InvalidInput that names a node which started before this one and does not fit.
+void requireFit(ros::NodeHandle handle, const std::string& topic, const ShardRegistry& registry);
+
+}  // namespace vegetation_sim

@@ -1,0 +1,193 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "crowd/agents/crowd_shard.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "core/error_text.h"
+#include "scenes/crowd/crowd_scenes.h"
+
+namespace vegetation_sim::crowd {
+namespace {
+
+constexpr double PERIOD = 1.0 / 30.0;  // of ticks [s]
+
+std::unique_ptr<Crowd> copyOf(const Crowd& crowd) {
+  const CrowdSnapshot& state = crowd.snapshot();
+  auto out = std::make_unique<Crowd>(state.seed, state.settings, state.area, flatGround());
+  out->setObstacles(crowd.obstacles().obstacles());
+  out->restore(state);
+  return out;
+}
+
+/// Shards of a crowd in one process, which tell each other their borders after each tick.
+class ShardedCrowd {
+ public:
+  ShardedCrowd(const Crowd& whole, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      crowds_.push_back(copyOf(whole));
+      shards_.push_back(std::make_unique<CrowdShard>(*crowds_.back(), Shard{i, count}));
+      crowds_.back()->takeOutside(shards_.back()->owners());
+      borders_.push_back(shards_.back()->endTick());
+    }
+  }
+  void advance(Nanoseconds stamp) {
+    for (std::size_t i = 0; i < shards_.size(); ++i) {
+      for (std::size_t j = 0; j < shards_.size(); ++j)
+        if (j != i)
+          shards_[i]->hear(static_cast<std::uint32_t>(j), readBorder(archiveBorder(borders_[j])));
+      shards_[i]->beginTick();
+    }
+    for (std::size_t i = 0; i < shards_.size(); ++i) {
+      crowds_[i]->advance(stamp);
+      hash_ += (i == 0 ? -hash_ : 0) + crowds_[i]->snapshot().walkersHash();
+      borders_[i] = shards_[i]->endTick();
+      for (const CrowdBorder::Handed& handed : borders_[i].handed)
+        crossed_.insert(handed.walker.id);
+    }
+  }
+  std::uint64_t hash() const { return hash_; }
+  const std::set<std::uint32_t>& crossed() const { return crossed_; }
+  std::size_t people(std::size_t shard) const { return crowds_[shard]->walkers().size(); }
+  std::vector<Walker> all() const {
+    std::vector<Walker> out;
+    for (std::size_t i = 0; i < crowds_.size(); ++i) {
+      out.insert(out.end(), crowds_[i]->walkers().begin(), crowds_[i]->walkers().end());
+      for (const CrowdBorder::Handed& handed : borders_[i].handed)
+        if (handed.stamp == borders_[i].stamp) out.push_back(handed.walker);
+    }
+    std::sort(out.begin(), out.end(), [](const Walker& a, const Walker& b) { return a.id < b.id; });
+    return out;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Crowd>> crowds_;
+  std::vector<std::unique_ptr<CrowdShard>> shards_;
+  std::vector<CrowdBorder> borders_;
+  std::set<std::uint32_t> crossed_;
+  std::uint64_t hash_{0};
+};
+
+Crowd wanderers(int count, double side, std::uint64_t seed) {
+  Crowd out(seed, CrowdSettings(), {0.0, side, 0.0, side}, flatGround());
+  const Random random(seed);
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::uint64_t>(3 * i);
+    Spawn spawn;
+    spawn.position = {random.uniform(k, 0.0, side), random.uniform(k + 1, 0.0, side)};
+    spawn.radius = 0.2 + 0.1 * random.uniform(k + 2);
+    out.spawn(spawn);
+  }
+  Robot robot;
+  robot.id = "robot";
+  robot.position = {0.5 * side, 0.5 * side};
+  out.setRobot(robot);
+  return out;
+}
+
+TEST(CrowdShard, AllShardsTogetherAreOneCrowd) {
+  for (const std::uint32_t count : {1u, 2u, 4u}) {
+    Crowd whole = wanderers(150, 24.0, 7);
+    ShardedCrowd shards(whole, count);
+    Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+    for (int tick = 0; tick < 1800; ++tick, stamp += fromSeconds(PERIOD)) {
+      whole.advance(stamp);
+      shards.advance(stamp);
+      ASSERT_EQ(shards.hash(), whole.snapshot().walkersHash()) << count << " " << tick;
+    }
+    if (count == 1) continue;
+    EXPECT_GT(shards.crossed().size(), 100u);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_GT(shards.people(i), 150u / count / 2u);
+  }
+}
+
+// Without the people beyond the border, those of two shards meet without seeing each other.
+TEST(CrowdShard, PeopleAvoidThoseBeyondTheBorder) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  std::vector<std::unique_ptr<Crowd>> blind;
+  for (const std::uint32_t i : {0u, 1u}) {
+    blind.push_back(copyOf(whole));
+    blind.back()->takeOutside(CrowdOwners(whole.snapshot().area, {i, 2}));
+  }
+  run(whole, 5.0, PERIOD, [](const Crowd&) {});
+  std::uint64_t sum = 0;
+  for (const auto& crowd : blind) {
+    run(*crowd, 5.0, PERIOD, [](const Crowd&) {});
+    sum += crowd->snapshot().walkersHash();
+  }
+  EXPECT_NE(sum, whole.snapshot().walkersHash());
+}
+
+// Searches for ways begin where the first of a shard asks, so that ways of equal length may differ.
+TEST(CrowdShard, WaysAroundWallsAreAsGood) {
+  Crowd whole = houseOfRooms(100, 60.0, 3);
+  ShardedCrowd shards(whole, 4);
+  Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+  double way[2] = {0.0, 0.0};
+  for (int tick = 0; tick < 1200; ++tick, stamp += fromSeconds(PERIOD)) {
+    whole.advance(stamp);
+    shards.advance(stamp);
+    for (const Walker& walker : whole.walkers()) way[0] += PERIOD * length(walker.velocity);
+    for (const Walker& walker : shards.all()) way[1] += PERIOD * length(walker.velocity);
+  }
+  ASSERT_EQ(shards.all().size(), 100u);
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(shards.all()[i].id, i);
+    apart += length(shards.all()[i].position - whole.walkers()[i].position) > 1.0;
+  }
+  RecordProperty("people_elsewhere", static_cast<int>(apart));
+  std::printf("%zu of 100 people are more than 1 m from where one crowd has them\n", apart);
+  EXPECT_NEAR(way[1] / way[0], 1.0, 0.05);
+}
+
+// A shard that is silent misses nobody: those who come to it wait.
+TEST(CrowdShard, PeopleWaitForASilentShard) {
+  Crowd whole(1, CrowdSettings(), {0.0, 20.0, 0.0, 20.0}, flatGround());
+  const CrowdOwners owners(whole.snapshot().area, {0, 2});
+  const Point from{5.0, 5.0}, to{15.0, 15.0};
+  const std::uint32_t first = owners.ownerAt(from), second = owners.ownerAt(to);
+  ASSERT_NE(first, second);
+  spawnAt(whole, from, to);
+  const auto here = copyOf(whole), there = copyOf(whole);
+  there->takeOutside(CrowdOwners(whole.snapshot().area, {second, 2}));
+  CrowdShard sender(*here, {first, 2}), receiver(*there, {second, 2});
+  CrowdBorder border = sender.endTick();
+  for (Nanoseconds tick = 1; sender.waiting() == 0 && tick < 600; ++tick) {
+    sender.beginTick();
+    here->advance(tick * fromSeconds(PERIOD));
+    border = sender.endTick();
+  }
+  ASSERT_EQ(sender.waiting(), 1u);
+  here->advance(border.stamp + fromSeconds(PERIOD));
+  border = sender.endTick();
+  EXPECT_EQ(here->walkers().size(), 0u);
+  ASSERT_EQ(border.handed.size(), 1u);
+  receiver.hear(first, border);
+  receiver.hear(first, border);
+  ASSERT_EQ(there->walkers().size(), 1u);
+  EXPECT_EQ(there->walkers().front().id, 0u);
+  there->advance(border.stamp);
+  const CrowdBorder answer = receiver.endTick();
+  // The same from the receiver's saved state.
+  Archive saved;
+  receiver.archive(saved);
+  CrowdShard again(*there, {second, 2});
+  Archive read = Archive::reading(saved.bytes());
+  again.archive(read);
+  read.finish();
+  EXPECT_EQ(archiveBorder(again.endTick()), archiveBorder(answer));
+  sender.hear(second, answer);
+  EXPECT_EQ(sender.waiting(), 0u);
+  EXPECT_EQ(errorOf([&] { sender.hear(first, answer); }),
+            "border: shard = " + std::to_string(first) +
+                " is no other shard of the 2 than this one, " + std::to_string(first));
+  EXPECT_NE(errorOf([] { readBorder("no border"); }), "");
+}
+
+}  // namespace
+}  // namespace vegetation_sim::crowd

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures what the shards of a world cost and what a listener receives; see scripts/shard_rates.sh.
+Needs a master, and sets the clock.
+
+usage: measure_shards.py FOLDER TILES WALKERS SHARDS TICKS
+       of 1000 trees, beside a meadow of TILES x 1000 m2"""
+import collections
+import os
+import sys
+
+import rospy
+from geometry_msgs.msg import Point, Pose, Quaternion
+from std_msgs.msg import Header
+from vegetation_sim.msg import AgentStates, ForestState, GrassState, SensorInterest, Viewer
+
+from forest_rig import RATE, start_node, stop, time_of
+from waiting import SimulatedClock, wait_for
+
+FIRST, WARM_UP, SIZE = 30000, 150, 200.0  # ticks; side of a tile [m]
+PLACES = 8  # viewers and sensors
+FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
+LISTENERS = {'display': ('/forest/view', '/grass/state', '/agents/view'),
+             'lidar': ('/forest/state', '/grass/state', '/agents')}
+AWAITED = {'/forest/state': ForestState, '/grass/state': GrassState, '/agents': AgentStates}  # at each tick
+
+
+def write_scene(path, tiles, walkers):
+    """Writes a world that is as dense at any size: the number of tiles is a square's."""
+    side = round(tiles ** 0.5)
+    half = 0.5 * SIZE * side
+    meadow = 0.5 * (1000.0 * tiles) ** 0.5
+    nodes = int(2.0 * meadow / 4.0) + 1
+    species = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../config/species')
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write('''frame_id: map
+seed: 9
+forest:
+  species: [{file: %s/birch.yaml}, {file: %s/pine.yaml}]
+  tiles:
+    - {x: %g, y: %g, size: %g, rows: %d, columns: %d, count: 1000, mix: {birch: 1, pine: 1}}
+grass: {resolution: 4.0, origin_x: %g, origin_y: %g, columns: %d, rows: %d, height: {value: 0.3}, density: {value: 300}}
+crowd:
+  area: {min_x: %g, max_x: %g, min_y: %g, max_y: %g}
+  groups: [{count: %d, x: 0, y: 0, spread: %g}]
+wind: {primitives: [{name: breeze, kind: breeze, velocity: [4.0, 1.0, 0.0]}]}
+''' % (species, species, -half, -half, SIZE, side, side, -meadow, -meadow, nodes, nodes, -meadow, meadow, -meadow,
+       meadow, walkers, meadow))
+
+
+def cost_of(process):
+    """Returns the processor time [s] and the resident memory [MB] of a process."""
+    with open('/proc/%d/stat' % process.pid, encoding='utf-8') as file:
+        fields = file.read().rsplit(')', 1)[1].split()
+    ticks = int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf('SC_CLK_TCK'), int(fields[21]) * os.sysconf('SC_PAGE_SIZE') / 1e6
+
+
+class Counter:
+    """Counts the bytes of a topic, and its messages by stamp."""
+
+    def __init__(self, topic, message_type=None):
+        self.bytes, self.stamps, self._type = 0, collections.Counter(), message_type
+        rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
+
+    def _on_message(self, raw):
+        self.bytes += len(raw._buff)
+        if self._type:
+            self.stamps[self._type().deserialize(raw._buff).header.stamp] += 1
+
+
+def main():
+    folder, (tiles, walkers, shards, ticks) = sys.argv[1], map(int, sys.argv[2:])
+    rospy.init_node('measure_shards')
+    scene = os.path.join(folder, 'scene.yaml')
+    write_scene(scene, tiles, walkers)
+    forests, meadows = [], []
+    others = [start_node('wind_broadcaster', '/wind_broadcaster', {}, scenario=scene),
+              start_node('agent_crowd', '/agent_crowd', {}, scenario=scene, most_walkers=100000)]
+    for index in range(shards):
+        share = dict(scenario=scene, shard=dict(index=index, count=shards))
+        # Shards have equal parts of the budgets of one node.
+        forests.append(start_node('forest_animator', '/forest_%d' % index, {}, frame_time=FRAME_TIME / shards,
+                                  modal_trees=MODAL_TREES // shards, **share))
+        meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000,
+                                  cover_resolution=1.0, **share))
+    counters = {topic: Counter(topic, AWAITED.get(topic))
+                for topics in LISTENERS.values() for topic in topics}
+    viewers = rospy.Publisher('/viewer', Viewer, queue_size=100)
+    sensors = rospy.Publisher('/forest/sensors', SensorInterest, queue_size=100)
+    clock = SimulatedClock()
+    clock.wait_for_listeners(2 * shards + 3)
+    wait_for(lambda: sensors.get_num_connections() >= shards, 'readers of sensors')
+
+    def run(first, last):
+        for tick in range(first, last):
+            if tick % 15 == 0:
+                # One place in the middle and others on the diagonal of the inner quarter, so that
+                # they are the same in a world that is larger.
+                for i in range(PLACES):
+                    place = (i - PLACES // 2) * 0.05 * SIZE * PLACES
+                    header = Header(frame_id='map')
+                    viewers.publish(Viewer(header=header, id='viewer_%d' % i, field_of_view=0.8, height=900,
+                                           pose=Pose(Point(place, place, 2.0), Quaternion(w=1.0))))
+                    sensors.publish(SensorInterest(header=header, id='sensor_%d' % i, range=8.0, tolerance=0.02,
+                                                   position=Point(place, place, 1.5)))
+            stamp = time_of(tick)
+            clock.set(stamp + rospy.Duration(0.5 / RATE))
+            for topic in AWAITED:
+                count = 1 if topic == '/agents' else shards
+                wait_for(lambda t=topic, s=stamp, n=count: counters[t].stamps[s] >= n, '%s %s' % (topic, stamp))
+
+    run(FIRST, FIRST + WARM_UP)
+    before = {process.pid: cost_of(process)[0] for process in forests + meadows}
+    for counter in counters.values():
+        counter.bytes = 0
+    run(FIRST + WARM_UP, FIRST + WARM_UP + ticks)
+    for name, processes in (('forest', forests), ('grass', meadows)):
+        costs = [cost_of(process) for process in processes]
+        times = [1000.0 * (cost[0] - before[process.pid]) / ticks for cost, process in zip(costs, processes)]
+        print('%d shards, %s: %.2f ms of processor time for a tick in all, %.2f at most; %.0f MB each' % (
+            shards, name, sum(times), max(times), max(cost[1] for cost in costs)))
+    for listener, topics in LISTENERS.items():
+        rates = [counters[topic].bytes * RATE / ticks / 1000.0 for topic in topics]
+        print('%d trees, %d walkers, %s: %.0f kB/s (%s)' % (
+            1000 * round(tiles ** 0.5) ** 2, walkers, listener, sum(rates),
+            ', '.join('%s %.0f' % pair for pair in zip(topics, rates))))
+    sys.stdout.flush()
+    for process in forests + meadows + others:
+        stop(process)
+
+
+if __name__ == '__main__':
+    main()
