@@ -70,7 +70,7 @@ void AgentCrowd::populate() {
   if (!shard_) return;
   crowd_.takeOutside(shard_->owners());
   shard_->clear();
-  border_ = crowd::archiveBorder(shard_->endTick());
+  keepBorder();
 }
 
 // Ids of walkers that wait for their stamps are taken too.

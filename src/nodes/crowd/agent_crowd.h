@@ -95,6 +95,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void hearBorders(Nanoseconds stamp);
   void applyBorder(std::uint64_t hash);
   void endTickOfShard();
+  void keepBorder();
   void publishBorder();
   void onPart(const CrowdPart& message);
   void addPart(Nanoseconds stamp, std::uint32_t shard, const AgentStates& people);
@@ -133,7 +134,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
   HashedCache<CrowdBorder> borders_;
-  std::string border_;                                 // after the last tick
   using Parts = std::map<std::uint32_t, AgentStates>;  // by shard
   std::map<Nanoseconds, Parts> parts_;                 // by stamp, that wait for other shards
   Parts last_parts_;
@@ -157,6 +157,12 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   };
   using Walked = std::map<std::uint32_t, Trodden>;  // by walker
   static void archive(Archive& a, Walked& walked);
+  struct SentBorder {
+    Nanoseconds stamp{0};
+    std::string bytes{};
+  };
+  static void archive(Archive& a, SentBorder& border);
+  SentBorder border_, previous_border_;  // of the last two ticks
   Walked trodden_;
   std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0};
 

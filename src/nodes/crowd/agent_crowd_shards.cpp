@@ -73,18 +73,27 @@ void AgentCrowd::applyBorder(std::uint64_t hash) {
 
 void AgentCrowd::endTickOfShard() {
   if (!shard_) return;
-  border_ = crowd::archiveBorder(shard_->endTick());
+  keepBorder();
   publishBorder();
+}
+
+void AgentCrowd::keepBorder() {
+  const Nanoseconds stamp = crowd_.snapshot().stamp;
+  SentBorder border{stamp, crowd::archiveBorder(shard_->endTick())};
+  previous_border_ = stamp > border_.stamp ? std::move(border_) : SentBorder();
+  border_ = std::move(border);
 }
 
 void AgentCrowd::publishBorder() {
   if (!inbox_) return;
   CrowdBorder message;
-  message.header.stamp = toStamp(crowd_.snapshot().stamp);
+  message.header.stamp = toStamp(border_.stamp);
   message.header.frame_id = options_.frame_id;
   message.shard = options_.shard->index;
   message.shards = options_.shard->count;
-  message.border.assign(border_.begin(), border_.end());
+  message.border.assign(border_.bytes.begin(), border_.bytes.end());
+  message.previous_stamp = toStamp(previous_border_.stamp);
+  message.previous_border.assign(previous_border_.bytes.begin(), previous_border_.bytes.end());
   border_publisher_.publish(message);
 }
 

@@ -36,6 +36,11 @@ void AgentCrowd::archive(Archive& a, Walked& walked) {
       });
 }
 
+void AgentCrowd::archive(Archive& a, SentBorder& border) {
+  a.stamp("border stamp", border.stamp);
+  a.text("border", border.bytes, LARGEST_SNAPSHOT);
+}
+
 std::uint64_t AgentCrowd::sceneHash() const {
   Hash hash;
   const std::uint64_t whole = scenarioHash();
@@ -75,8 +80,7 @@ void AgentCrowd::writeState(Archive& a) const {
   if (!shard_) return;
   crowd::CrowdShard shard = *shard_;
   shard.archive(a);
-  std::string border = border_;
-  a.text("border", border, LARGEST_SNAPSHOT);
+  for (SentBorder border : {border_, previous_border_}) archive(a, border);
 }
 
 CheckedState AgentCrowd::readState(Archive& a) {
@@ -90,10 +94,11 @@ CheckedState AgentCrowd::readState(Archive& a) {
   CrowdRobots::Seen robots;
   CrowdRobots::archive(a, robots);
   std::optional<crowd::CrowdShard> shard = shard_;
-  std::string border;
+  SentBorder border, previous_border;
   if (shard) {
     shard->archive(a);
-    a.text("border", border, LARGEST_SNAPSHOT);
+    archive(a, border);
+    archive(a, previous_border);
   }
   const crowd::CrowdSnapshot read = crowd::Crowd::readArchived(std::move(state), a.shift());
   std::optional<ForestLayout> trees;
@@ -112,6 +117,7 @@ CheckedState AgentCrowd::readState(Archive& a) {
             robots_.restore(robots);
             shard_ = shard;
             border_ = border;
+            previous_border_ = previous_border;
             publishBorder();
             options_.tuning = read.settings;
             begun_ = true;

@@ -4,15 +4,8 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <vegetation_sim/CrowdBorder.h>
 
-#include <cstddef>
-#include <map>
-#include <set>
-#include <vector>
-
-#include "core/config/shard.h"
-#include "vegetation_sim/core/math/time.h"
+#include "nodes/crowd/waiting_borders.h"
 
 namespace vegetation_sim {
 
@@ -27,22 +20,17 @@ class BorderInbox {
   /// @param before stamp of the tick before, for whose borders it waits; 0: any.
   std::vector<CrowdBorder> take(Nanoseconds before, Nanoseconds now);
   /// Forgets all borders, after a jump of time.
-  void clear();
+  void clear() { borders_ = WaitingBorders(shard_); }
   /// Number of borders that have not come in time.
   std::size_t late() const { return late_; }
 
  private:
-  void onBorder(const CrowdBorder& message);
-  bool hasAll(Nanoseconds before) const;
-
   Shard shard_;
   double wait_;
+  WaitingBorders borders_;
+  std::size_t late_{0};
   // Callbacks run during a tick. It is declared before the subscriber, which ends first.
   ros::CallbackQueue queue_;
-  std::map<std::uint32_t, std::vector<CrowdBorder>> waiting_;  // by shard, by rising stamp
-  std::map<std::uint32_t, Nanoseconds> newest_;                // stamps by shard
-  std::set<std::uint32_t> awaited_;                            // shards
-  std::size_t late_{0};
   ros::Subscriber subscriber_;
 };
 
