@@ -36,8 +36,7 @@ void WaitingBorders::add(const CrowdBorder& message) {
     waiting.push_back(std::move(previous));
   newest_[shard] = fromMsg(newer.header.stamp);
   waiting.push_back(std::move(newer));
-  if (waiting.size() > MOST_BORDERS)
-    waiting.erase(waiting.begin(), waiting.end() - MOST_BORDERS);
+  if (waiting.size() > MOST_BORDERS) waiting.erase(waiting.begin(), waiting.end() - MOST_BORDERS);
   expected_.insert(shard);
 }
 
