@@ -171,9 +171,11 @@ std::vector<Contact> ContactFinder::findContacts(const ContactTree& tree, const 
   const double h = secondsBetween(from, to);
   std::vector<Contact> out;
   PersistentContacts kept;
+  const LinkBounds bounds(tree);
   for (const auto& entry : bodies) {
     const Placed placed(entry.second, tree.foot, from);
     const Touched touched(persistent, entry.first);
+    if (touched.first == touched.last && bounds.isFar(placed, h)) continue;
     for (std::size_t i = 0; i < tree.branches.size(); ++i) {
       const Pair pair(tree, i, placed);
       const Held held(touched, tree.branches[i]);

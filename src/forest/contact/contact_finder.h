@@ -13,7 +13,7 @@
 #include "forest/contact/contact_body.h"
 #include "tree/growth/tree_grid.h"
 #include "tree/growth/tree_owners.h"
-#include "vegetation_sim/tree/motion/pose.h"
+#include "vegetation_sim/tree/state/promoted_branches.h"
 
 namespace vegetation_sim::forest {
 
@@ -38,8 +38,10 @@ struct ContactScene {
   const Layout& layout;
   std::uint64_t layout_hash;
   const terrain::HeightMap& terrain;
-  /// Returns the pose of every branch of a tree, in the tree's frame.
-  std::function<std::vector<Pose>(const Tree&, std::uint32_t tree, Nanoseconds stamp)> pose;
+  using Enters = std::function<bool(int branch, const Pose&)>;
+  /// Returns poseReached() of a tree, in the tree's frame.
+  std::function<ReachedPoses(const Tree&, std::uint32_t tree, Nanoseconds stamp, const Enters&)>
+      pose;
   const TreeGrid* grid{nullptr};  ///< of the layout; null: all trees are compared with each body
   const BrokenTrees* broken{nullptr};  ///< what has come off the trees; null: nothing
   const TreeOwners* owners{nullptr};   ///< trees of other shards are ignored; null: there are none
@@ -94,9 +96,11 @@ class ContactFinder {
   struct CachedTree {
     std::shared_ptr<const Tree> tree;
     BrokenBranches broken;  // with which it was grown
+    std::vector<double>
+        reach;  // [branches] from the base of what it bears, however joints bend [m]
   };
   using Trees = std::map<std::uint32_t, CachedTree>;
-  static const Tree& update(const ContactScene& scene, std::uint32_t id, CachedTree& cached);
+  static const CachedTree& update(const ContactScene& scene, std::uint32_t id, CachedTree& cached);
   ContactTrace trace_;
   mutable std::mutex mutex_;
   mutable std::uint64_t layout_hash_{0};  // of trees_

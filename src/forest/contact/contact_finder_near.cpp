@@ -41,6 +41,19 @@ bool mayReach(const Skeleton& skeleton, const Vec3& foot, const Ball& ball) {
          std::fabs(offset.z()) <= room;
 }
 
+// Returns how far each branch with all that it bears reaches from its base, however joints bend.
+std::vector<double> findReaches(const Skeleton& skeleton) {
+  std::vector<double> out(skeleton.branches.size());
+  for (std::size_t i = out.size(); i-- > 0;) {
+    const Branch& branch = skeleton.branches[i];
+    out[i] = std::max(out[i], branch.length + branch.base_radius);
+    if (branch.parent < 0) continue;
+    double& bearer = out[static_cast<std::size_t>(branch.parent)];
+    bearer = std::max(bearer, branch.h + out[i]);
+  }
+  return out;
+}
+
 // Adds a branch and its ancestors: all of them carry the load to the ground.
 void addWithBearers(const Skeleton& skeleton, int branch, std::vector<char>& chosen) {
   for (int i = branch; i >= 0 && !chosen[static_cast<std::size_t>(i)];
@@ -67,15 +80,23 @@ void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Na
   for (auto it = trees_.begin(); it != trees_.end();)
     it = balls.count(it->first) ? std::next(it) : trees_.erase(it);
   for (const auto& [id, around] : balls) {
-    const Tree& tree = update(scene, id, trees_[id]);
+    const CachedTree& cached = update(scene, id, trees_[id]);
+    const Tree& tree = *cached.tree;
     const auto reached = [&](const Ball& b) { return mayReach(tree.skeleton, tree.foot, b); };
     if (std::none_of(around.begin(), around.end(), reached)) continue;
-    const std::vector<Pose> poses = scene.pose(tree, id, from);
-    std::vector<char> chosen(poses.size(), 0);
-    for (std::size_t i = 0; i < poses.size(); ++i)
+    const auto enters = [&, &around = around](int branch, const Pose& pose) {
+      return std::any_of(around.begin(), around.end(), [&](const Ball& ball) {
+        const double far = 1.001 * (ball.radius + cached.reach[static_cast<std::size_t>(branch)]);
+        const Vec3 offset = ball.centre - tree.foot - pose.position;
+        return dot(offset, offset) <= far * far;
+      });
+    };
+    const ReachedPoses poses = scene.pose(tree, id, from, enters);
+    std::vector<char> chosen(poses.poses.size(), 0);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
       for (const Ball& ball : around)
-        if (!tree.skeleton.branches[i].broken &&
-            holds(ball, tree.skeleton.branches[i], poses[i], tree.foot))
+        if (poses.entered[i] && !tree.skeleton.branches[i].broken &&
+            holds(ball, tree.skeleton.branches[i], poses.poses[i], tree.foot))
           addWithBearers(tree.skeleton, static_cast<int>(i), chosen);
     std::vector<int>& branches = near[id];
     for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -85,13 +106,17 @@ void ContactFinder::findNear(const ContactScene& scene, const Bodies& bodies, Na
 }
 
 // Grows a tree if it is not cached, or has lost branches since.
-const Tree& ContactFinder::update(const ContactScene& scene, std::uint32_t id, CachedTree& cached) {
+const ContactFinder::CachedTree& ContactFinder::update(const ContactScene& scene, std::uint32_t id,
+                                                       CachedTree& cached) {
   static const BrokenTrees NONE;
   const BrokenBranches& broken = brokenOf(scene.broken ? *scene.broken : NONE, id);
-  if (!cached.tree || !(cached.broken == broken))
+  if (!cached.tree || !(cached.broken == broken)) {
     cached = {std::make_shared<const Tree>(growTree(scene.layout, id, scene.terrain, broken)),
-              broken};
-  return *cached.tree;
+              broken,
+              {}};
+    cached.reach = findReaches(cached.tree->skeleton);
+  }
+  return cached;
 }
 
 void ContactFinder::releaseTrees() const {
@@ -107,7 +132,8 @@ std::size_t ContactFinder::bytes() const {
     out += sizeof(Trees::value_type) + sizeof(Tree) +
            tree.skeleton.branches.capacity() * sizeof(Branch) +
            tree.skeleton.groups.capacity() * sizeof(Group) +
-           tree.response.capacity() * sizeof(Response);
+           tree.response.capacity() * sizeof(Response) +
+           entry.second.reach.capacity() * sizeof(double);
   }
   return out;
 }

@@ -18,8 +18,10 @@ int ContactFinder::countSubsteps(const ContactTree& tree, const Bodies& bodies, 
                                  Nanoseconds to) const {
   const double h = secondsBetween(from, to);
   double way = 0.0;
+  const LinkBounds bounds(tree);
   for (const auto& entry : bodies) {
     const Placed placed(entry.second, tree.foot, from);
+    if (bounds.isFar(placed, h)) continue;
     for (std::size_t i = 0; i < tree.branches.size(); ++i) {
       const Pair pair(tree, i, placed);
       if (leastGap(placed, pair.bar) > pair.reach(h)) continue;

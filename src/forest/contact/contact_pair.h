@@ -53,6 +53,38 @@ struct Pair {
   double reach(double h) const { return SKIN + LOOK_AHEAD * h * fastest(); }
 };
 
+/// A box around the links of a tree at the start of a step, with their largest speed. Bodies far
+/// from it need no test with each link.
+class LinkBounds {
+ public:
+  explicit LinkBounds(const ContactTree& tree) {
+    for (std::size_t i = 0; i < tree.branches.size(); ++i) {
+      const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(tree.branches[i])];
+      const Pose& pose = tree.start.pose[i];
+      const Vec3 tip = pose.position + b.length * axisZ(pose.orientation);
+      low_ = low_.cwiseMin(pose.position).cwiseMin(tip);
+      high_ = high_.cwiseMax(pose.position).cwiseMax(tip);
+      thickest_ = std::max(thickest_, b.base_radius);
+      fastest_ = std::max(fastest_,
+                          length(tree.start.velocity[i]) + b.length * length(tree.start.spin[i]));
+    }
+  }
+  /// Returns true if no Pair of the body can be within its reach in a step of `h` seconds.
+  bool isFar(const Placed& placed, double h) const {
+    const Vec3& centre = placed.pose.position;
+    const double least = length(Vec3(centre - centre.cwiseMax(low_).cwiseMin(high_)));
+    const double most =
+        length(Vec3((centre - low_).cwiseAbs().cwiseMax((high_ - centre).cwiseAbs())));
+    const double speed = fastest_ + length(placed.body.velocity) + most * length(placed.body.spin);
+    return least > ROOM * (placed.shape.reach() + thickest_ + SKIN + LOOK_AHEAD * h * speed);
+  }
+
+ private:
+  static constexpr double FARTHEST = 1e9, ROOM = 1.001;  // [m], for rounding
+  Vec3 low_{Vec3::Constant(FARTHEST)}, high_{Vec3::Constant(-FARTHEST)};
+  double thickest_{0.0}, fastest_{0.0};
+};
+
 /// Returns a lower bound of the gap between a body and a bar: distance grows no faster than the
 /// position along the bar.
 inline double leastGap(const Placed& placed, const physics::Bar& bar) {

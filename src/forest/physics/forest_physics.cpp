@@ -138,8 +138,11 @@ void ForestPhysics::beginReviews(const StepContext& context, Nanoseconds start) 
 
 void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, Nanoseconds to) {
   BranchesOfTrees loaded;
-  const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp) {
-    return pose(context, tree, id, stamp);
+  const auto pose_tree = [&](const Tree& tree, std::uint32_t id, Nanoseconds stamp,
+                             const ContactScene::Enters& enters) {
+    const Weights weights = weightsAt(context.levels.of(id), stamp, context.layout.motion);
+    return poseReached(tree, context.wind.at(stamp).relativeTo(tree.foot), weights,
+                       context.modes.find(id), promoted(id, context.stamp), stamp, enters);
   };
   context.contacts.findNear({context.layout, context.layout_hash, context.terrain, pose_tree,
                              &context.grid, &broken_, &context.owners},

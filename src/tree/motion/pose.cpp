@@ -31,32 +31,44 @@ Tree growTree(const TreeSeed& seed, const Species& species, const MotionLaw& law
   return out;
 }
 
+JointAngles proceduralAngles(const Tree& tree, const wind::Instant& wind, const Weights& weights,
+                             int branch) {
+  const auto i = static_cast<std::size_t>(branch);
+  const Branch& b = tree.skeleton.branches[i];
+  const double weight = weights[static_cast<std::size_t>(b.depth)];
+  if (weight <= 0.0) return {};
+  const Vec3 velocity =
+      effectiveVelocity(wind.velocity(b.rest.position), tree.drag, tree.reference_speed);
+  return deviation(tree.response[i], velocity, weight, tree.joint_model);
+}
+
 std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant& wind,
                                           const Weights& weights) {
   std::vector<JointAngles> out(tree.skeleton.branches.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const Branch& branch = tree.skeleton.branches[i];
-    const double weight = weights[static_cast<std::size_t>(branch.depth)];
-    if (weight <= 0.0) continue;
-    const Vec3 velocity =
-        effectiveVelocity(wind.velocity(branch.rest.position), tree.drag, tree.reference_speed);
-    out[i] = deviation(tree.response[i], velocity, weight, tree.joint_model);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = proceduralAngles(tree, wind, weights, static_cast<int>(i));
+  return out;
+}
+
+Pose poseOnParent(const Tree& tree, int branch, const JointAngles& angles, const Pose& parent) {
+  const Branch& b = tree.skeleton.branches[static_cast<std::size_t>(branch)];
+  const Quat local = jointRotation(b, angles, tree.joint_model);
+  Pose out;
+  if (b.parent < 0) {
+    out.orientation = local;
+    return out;
   }
+  out.orientation = parent.orientation * local;
+  out.position = parent.position + b.h * axisZ(parent.orientation);
   return out;
 }
 
 std::vector<Pose> forwardKinematics(const Tree& tree, const std::vector<JointAngles>& angles) {
   std::vector<Pose> out(angles.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Branch& branch = tree.skeleton.branches[i];
-    const Quat local = jointRotation(branch, angles[i], tree.joint_model);
-    if (branch.parent < 0) {
-      out[i].orientation = local;
-      continue;
-    }
-    const Pose& parent = out[static_cast<std::size_t>(branch.parent)];
-    out[i].orientation = parent.orientation * local;
-    out[i].position = parent.position + branch.h * axisZ(parent.orientation);
+    const int parent = tree.skeleton.branches[i].parent;
+    out[i] = poseOnParent(tree, static_cast<int>(i), angles[i],
+                          parent < 0 ? Pose() : out[static_cast<std::size_t>(parent)]);
   }
   return out;
 }

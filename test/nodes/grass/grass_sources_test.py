@@ -49,9 +49,13 @@ class GrassSources(unittest.TestCase):
         """Publishes one frame per function and tick; a function gets the completed share of the
         path."""
         for i in range(ticks + 1):
-            self.tf.publish(TFMessage([self.frame(*f(i / ticks)) for f in frames_at]))
-            self.grass.settle()
+            self.move(*(f(i / ticks) for f in frames_at))
             self.clock.run(1, self.grass)
+
+    def move(self, *frames):
+        transforms = [self.frame(*frame) for frame in frames]
+        self.tf.publish(TFMessage(transforms))
+        self.grass.settle_frames(transforms)
 
     def last_wrench(self, frame):
         stamp = time_of(self.clock.tick)
@@ -135,8 +139,7 @@ class GrassSources(unittest.TestCase):
             message.header.stamp = time_of(self.clock.tick + 1)
             message.pose.pose.position.x, message.pose.pose.position.y = 10.0 + 3.0 * i / RATE, -4.0
             self.odom.publish(message)
-            self.tf.publish(TFMessage([self.frame('base_link', message.pose.pose.position.x, -4.0, 0.0)]))
-            self.grass.settle()
+            self.move(('base_link', message.pose.pose.position.x, -4.0, 0.0))
             self.clock.run(1, self.grass)
         self.assertGreater(self.grass.at(11.5, -4.1).tilt, 1.4)
         drag = -0.4 * 0.2 * 800.0 * 0.3 * 3.0

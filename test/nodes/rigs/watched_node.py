@@ -10,6 +10,7 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
+import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import PredictedErrors
@@ -177,6 +178,18 @@ class WatchedNode:
         early = rospy.ServiceProxy(self.process + '/tf2_frames', FrameGraph)
         for _ in range(2):
             self._probe() if self._begun else early()
+
+    def settle_frames(self, transforms):
+        """Returns when the node, a thread of which reads tf, has these transforms and all messages."""
+        graph = rospy.ServiceProxy(self.process + '/tf2_frames', FrameGraph)
+
+        def has_all():
+            known = yaml.safe_load(graph().frame_yaml) or {}
+            return all(t.child_frame_id in known and
+                       known[t.child_frame_id]['most_recent_transform'] > t.header.stamp.to_sec() - 1e-3
+                       for t in transforms)
+        wait_for(has_all, [t.child_frame_id for t in transforms])
+        self.settle()
 
     def diagnostics(self, part=None):
         """Returns the node's next diagnostics by key, of the node itself or of its part `part`."""

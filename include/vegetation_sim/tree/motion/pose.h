@@ -42,6 +42,13 @@ std::vector<JointAngles> proceduralAngles(const Tree& tree, const wind::Instant&
 /// The scalar version in double precision, reference of BatchPoser.
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights);
 
+/// Returns the deviation of one of the joints.
+JointAngles proceduralAngles(const Tree& tree, const wind::Instant& wind, const Weights& weights,
+                             int branch);
+
+/// Returns the pose of a branch on that of its parent, which the trunk ignores.
+Pose poseOnParent(const Tree& tree, int branch, const JointAngles& angles, const Pose& parent);
+
 /// Returns the poses for given joint deviations.
 std::vector<Pose> forwardKinematics(const Tree& tree, const std::vector<JointAngles>& angles);
 

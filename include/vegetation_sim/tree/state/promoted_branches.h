@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "vegetation_sim/tree/modal/modal_tree_state.h"
@@ -39,5 +40,16 @@ void overlay(const PromotedTree& promoted, Nanoseconds stamp, std::vector<JointA
 std::vector<Pose> poseBranches(const Tree& tree, const wind::Instant& wind, const Weights& weights,
                                const ModalTreeState* modal_state, const PromotedTree& promoted,
                                Nanoseconds stamp);
+
+/// Poses of those branches of a tree whose parents have been entered.
+struct ReachedPoses {
+  std::vector<Pose> poses;    ///< [branches], identity where not posed
+  std::vector<char> entered;  ///< [branches] 1: what the branch bears is posed
+};
+/// Returns the same poses from the foot up, without what grows on a branch that `enters` rejects.
+ReachedPoses poseReached(const Tree& tree, const wind::Instant& wind, const Weights& weights,
+                         const ModalTreeState* modal_state, const PromotedTree& promoted,
+                         Nanoseconds stamp,
+                         const std::function<bool(int branch, const Pose&)>& enters);
 
 }  // namespace vegetation_sim::forest
