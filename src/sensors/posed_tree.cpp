@@ -116,10 +116,6 @@ void PosedTree::follow(const forest::ForestReplica& forest, Nanoseconds stamp,
   moved_ = moves;
 }
 
-int PosedTree::branchOf(std::size_t part) const {
-  return piece_ ? piece_->branches()[part] : static_cast<int>(part);
-}
-
 std::size_t PosedTree::partOf(int branch) const {
   if (!piece_) return static_cast<std::size_t>(branch);
   const std::vector<int>& own = piece_->branches();

@@ -66,7 +66,9 @@ class PosedTree {
   /// Returns the branches. [parts()]
   const std::vector<PosedBranch>& branches() const { return branches_; }
   /// Returns the index in the tree of a branch, counted from 0 to parts(), and the other way round.
-  int branchOf(std::size_t part) const;
+  int branchOf(std::size_t part) const {
+    return piece_ ? piece_->branches()[part] : static_cast<int>(part);
+  }
   std::size_t partOf(int branch) const;
 
   /// Replaces the hit by a nearer one on a branch or its leaves; returns whether there is one.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensors/tree_field.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -122,10 +124,12 @@ void Trees::update(const forest::ForestReplica& forest, const Vec3& centre, doub
   });
   std::vector<const RodTree*> rods;
   first_ranks_.clear();
+  branches_of_.clear();
   std::uint64_t rank = 1;
   for (const auto& tree : trees_) {
     rods.push_back(&tree->rodTree());
     first_ranks_.push_back(rank);
+    branches_of_.push_back(tree->branches().data());
     rank += tree->parts();
   }
   rods_.set(rods, origin_, threads);
@@ -143,11 +147,17 @@ void Trees::meet(const RayBundle& bundle, Hit* nearest) const {
   std::vector<RankedHit> ranked;
   ranked.reserve(RayBundle::MOST_RAYS);
   for (int ray = 0; ray < bundle.count; ++ray) ranked.emplace_back(nearest[ray]);
-  rods_.visit(bundle, nearest, [&](int ray, std::size_t tree, std::size_t branch, bool bare) {
-    ranked[static_cast<std::size_t>(ray)].offer(first_ranks_[tree] + branch, [&](Hit& hit) {
-      return trees_[tree]->meetBranch(branch, bundle.rays[ray], hit, bare);
-    });
-  });
+  const auto fetch = [&](std::size_t tree, std::size_t branch) {
+    const auto* place = reinterpret_cast<const char*>(branches_of_[tree] + branch);
+    hwy::Prefetch(place);
+    hwy::Prefetch(place + sizeof(PosedBranch) / 2);
+  };
+  rods_.visit(
+      bundle, nearest, fetch, [&](int ray, std::size_t tree, std::size_t branch, bool bare) {
+        ranked[static_cast<std::size_t>(ray)].offer(first_ranks_[tree] + branch, [&](Hit& hit) {
+          return trees_[tree]->meetBranch(branch, bundle.rays[ray], hit, bare);
+        });
+      });
 }
 
 void Trees::addDepth(const Ray& ray, const FloatRay& narrow, LightPath& path) const {

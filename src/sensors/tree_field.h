@@ -72,6 +72,7 @@ class Trees {
   std::uint64_t layout_hash_{0};
   std::vector<std::shared_ptr<PosedTree>> trees_;  ///< nearest first
   std::vector<std::uint64_t> first_ranks_;         ///< of the branches of each tree
+  std::vector<const PosedBranch*> branches_of_;    ///< the first of each tree
   RodTreeSet rods_;                                ///< of trees_
   std::map<std::uint32_t, std::size_t> sizes_;     ///< branches of trees that exceeded the limit
   Pieces pieces_;

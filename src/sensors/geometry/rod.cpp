@@ -32,8 +32,8 @@ void meetBall(const Ray& ray, const Vec3& centre, double radius, Meeting& out) {
     improve(part.from, (ray.at(part.from) - centre) / radius, ray, out);
 }
 
-// Distance from the end of a cylinder from which on the ball there is inside it by so much that
-// rounding cannot make its interval the longer one [m].
+// Distance from the end of a cylinder from which on rounding cannot make the interval of the ball
+// there the longer one, nor that end cut anything off [m].
 constexpr double BEYOND_BALL = 1e-3;
 
 // Which balls at the ends of a cylinder may extend the interval of a ray.
@@ -53,6 +53,7 @@ Stretch throughCylinder(const Ray& ray, const Rod& rod, double radius, Balls& ba
   const double enters = oa + da * out.from, leaves = oa + da * out.to;
   balls.base = std::min(enters, leaves) < BEYOND_BALL;
   balls.tip = std::max(enters, leaves) > rod.length - BEYOND_BALL;
+  if (!balls.base && !balls.tip) return out;  // the ends cut nothing off
   if (da == 0.0) return oa >= 0.0 && oa <= rod.length ? out : Stretch{};
   const double low = -oa / da, high = (rod.length - oa) / da;
   return {std::max(out.from, std::min(low, high)), std::min(out.to, std::max(low, high))};

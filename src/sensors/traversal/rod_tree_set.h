@@ -33,10 +33,10 @@ class RodTreeSet {
   }
 
   /// Calls meet(ray, tree, rod, bare), which may reduce the hit of that ray, for each rod that it
-  /// may hit.
+  /// may hit, after fetch(tree, rod) for some of them.
   /// @param nearest the hit of each ray of the bundle.
-  template <class Meet>
-  void visit(const RayBundle& bundle, const Hit* nearest, Meet&& meet) const {
+  template <class Fetch, class Meet>
+  void visit(const RayBundle& bundle, const Hit* nearest, Fetch&& fetch, Meet&& meet) const {
     BundleWalk walk(WalkedTree(nodes_, groups_, boxes_.origin(), boxes_.extent()), bundle, nearest);
     FoundGroups found;
     for (; findGroups(walk); walk.updateLimit())
@@ -46,6 +46,8 @@ class RodTreeSet {
           const RodCandidates next = nextRods(walk, ray, found);
           if (next.lanes == 0) break;
           const RodGroup& group = groups_[static_cast<std::size_t>(next.group)];
+          for (int i = 0; next.lanes >> i != 0; ++i)
+            if ((next.lanes >> i & 1U) != 0) fetch(std::size_t{group.tree}, group.rods[i]);
           meetNearestFirst(walk.placed[ray], next, nearest[ray], [&](int i) {
             meet(ray, std::size_t{group.tree}, std::size_t{group.rods[i]},
                  (next.bare >> i & 1U) != 0);

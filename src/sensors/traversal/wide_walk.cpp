@@ -92,7 +92,7 @@ namespace {
 HWY_EXPORT(nextBox);
 HWY_EXPORT(nextFew);
 
-constexpr double SMALLEST = 1e-18;  // of a component; over 10^6 m the ray deviates by 1e-12 m
+constexpr double LARGEST = 1e18;  // inverse; over 10^6 m the ray deviates by 1e-12 m
 
 // Returns two unit vectors perpendicular to a unit vector (Duff et al. 2017).
 void setAcross(const Vec3& d, float (&out)[2][3]) {
@@ -113,13 +113,13 @@ FloatRay::FloatRay(const Ray& ray) : valid(ray.origin.allFinite() && ray.directi
   slack = 0x1p-19 + std::sqrt(std::fabs(square - 1.0)) + std::fabs(square - 1.0);
   for (int i = 0; i < 3; ++i) {
     const bool back = ray.direction[i] < 0.0;
-    const double size = std::max(std::fabs(ray.direction[i]), SMALLEST);
     direction[i] = static_cast<float>(ray.direction[i]);
-    inverse[i] = static_cast<float>((back ? -1.0 : 1.0) / size);
+    const double size = std::min(std::fabs(ray.inverse[i]), LARGEST);
+    inverse[i] = static_cast<float>(back ? -size : size);
     near_plane[i] = back ? 3 + i : i;
     far_plane[i] = back ? i : 3 + i;
   }
-  setAcross(ray.direction / std::sqrt(square), across);
+  setAcross(1.0 / std::sqrt(square) * ray.direction, across);
 }
 
 std::uint16_t roundUp(float positive) {

@@ -56,7 +56,10 @@ struct Parts {
       const int count =
           countBundled(&rays[begin], &narrow[begin], static_cast<int>(rays.size() - begin));
       const RayBundle bundle{&rays[begin], &narrow[begin], count};
-      set.visit(bundle, &out[begin], [&](int i, std::size_t tree, std::size_t rod, bool) {
+      const auto fetch = [&](std::size_t tree, std::size_t rod) {
+        ASSERT_LT(first[tree] + rod, all.size());
+      };
+      set.visit(bundle, &out[begin], fetch, [&](int i, std::size_t tree, std::size_t rod, bool) {
         ++tested;
         const std::size_t number = first[tree] + rod, ray = begin + static_cast<std::size_t>(i);
         ranked[ray].offer(number + 1,
