@@ -81,11 +81,11 @@ TEST(CrowdConversions, RejectInvalidWalkers) {
       {"feet_lag", [](AgentState& a) { a.feet_lag[0].x = -NONE; }}};
   AgentStates message;
   message.agents = {standing(3), standing(7)};
-  EXPECT_EQ(errorOf([&] { check(message); }), "");
+  EXPECT_EQ(errorOf([&] { check(message.agents); }), "");
   for (const auto& [text, spoil] : faults) {
     AgentStates bad = message;
     spoil(bad.agents[1]);
-    const std::string refusal = errorOf([&] { check(bad); });
+    const std::string refusal = errorOf([&] { check(bad.agents); });
     EXPECT_NE(refusal.find("agent 7: "), std::string::npos) << text;
     EXPECT_NE(refusal.find(text), std::string::npos) << refusal;
     EXPECT_EQ(refusal.find("agent 3"), std::string::npos) << refusal;
