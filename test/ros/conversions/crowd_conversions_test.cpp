@@ -92,6 +92,16 @@ TEST(CrowdConversions, RejectInvalidWalkers) {
   }
 }
 
+TEST(CrowdConversions, DiscsAreReadAsTheyWereWritten) {
+  const std::vector<InterestArea> discs = {{1.0, -2.0, 30.0}, {1e6, 0.0, 1e9}};
+  EXPECT_EQ(fromMsg(toMsg(discs)), discs);
+  std::vector<InterestDisc> bad = toMsg(discs);
+  bad[1].radius = -1.0;
+  EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("discs[1].radius = -1 m is outside 0 to 2e+09 m"),
+            std::string::npos)
+      << errorOf([&] { fromMsg(bad); });
+}
+
 TEST(CrowdConversions, AGoalWithoutItsFlagIsRejectedByName) {
   AgentSpawn message;
   message.has_goal = true;
