@@ -4,7 +4,8 @@
 # Measures the processor time and memory of forest and grass in 1, 2, 4 and 8 shards, and the bytes
 # that a display and a lidar receive with the same view in a world and in one of a quarter the size:
 # a million trees, a square kilometre of grass and 2000 walkers. The script sets the clock.
-# usage: scripts/shard_rates.sh [TILES [WALKERS [TICKS]]]  (1024 tiles of 1000 trees, 2000, 300)
+# usage: scripts/shard_rates.sh [TILES [WALKERS [TICKS [AREA [RANGE]]]]]
+#        (1024 tiles of 1000 trees, 2000, 300 ticks, TILES x 1000 m2 of grass, views of 100 m)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -12,19 +13,22 @@ use_space "$DEVEL"
 export PATH=/usr/bin:/usr/sbin:/sbin:$PATH PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH=$ROOT/test/nodes/rigs:$PYTHONPATH
 tiles=${1:-1024} walkers=${2:-2000} ticks=${3:-300}
+area=${4:-$((1000 * tiles))} range=${5:-100}
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 
-# usage: measure TILES WALKERS SHARDS. In a network of its own, no node of another run answers.
+# usage: measure TILES WALKERS SHARDS [AREA PLACES RANGE]. In a network of its own, no node of another run answers.
 measure() {
   unshare --user --map-root-user --net --pid --fork --kill-child --mount-proc bash -c "
     ip link set lo up
     export ROS_MASTER_URI=http://localhost:11311 ROS_HOSTNAME=localhost ROS_HOME='$WORK/ros'
     roscore >'$WORK/roscore.log' 2>&1 &
     until rosparam set /use_sim_time true 2>/dev/null; do sleep 0.2; done
-    python3 test/nodes/shards/measure_shards.py '$WORK' $1 $2 $3 $ticks 2>'$WORK/errors.log'" ||
+    python3 test/nodes/shards/measure_shards.py '$WORK' $1 $2 $3 $ticks ${*:4} 2>'$WORK/errors.log'" ||
     { tail -n 20 "$WORK/errors.log" >&2; fail 'the measurement did not end'; }
 }
 
 for shards in 1 2 4 8; do measure "$tiles" "$walkers" "$shards"; done
-measure $((tiles / 4)) $((walkers / 4)) 2
+echo 'One display and one lidar, in the world and in one of a quarter the size:'
+measure "$tiles" "$walkers" 2 "$area" 1 "$range"
+measure $((tiles / 4)) $((walkers / 4)) 2 $((area / 4)) 1 "$range"

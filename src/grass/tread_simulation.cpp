@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "grass/map/tile_owners.h"
 #include "vegetation_sim/core/math/hash.h"
@@ -240,6 +242,25 @@ void TreadSimulation::reset() {
   stamp_ = published_ = 0;
   next_id_ = 1;
   sequence_ = 0;
+}
+
+TreadUpdate TreadSimulation::keyFrameOf(const BlockFilter& includes) const {
+  TreadUpdate out;
+  out.stamp = stamp_;
+  out.key_frame = true;
+  out.layout_hash = layout_hash_;
+  std::set<std::pair<int, int>> blocks;
+  for (const auto& [place, block] : tread_.state().blocks)
+    if (includes(place.first, place.second)) blocks.insert(place);
+  out.treads = makeDelta(tread_.state(), blocks, {std::numeric_limits<Nanoseconds>::min(), stamp_});
+  for (CutBlockDelta& cut : snapshotCuts(tread_.cuts().state()))
+    if (includes(cut.row, cut.column) &&
+        tread_.owners().ownsBlock(cut.row, cut.column, tread_.cells()))
+      out.treads.cuts.push_back(std::move(cut));
+  out.shard = tread_.owners().shard().index;
+  out.shards = tread_.owners().shard().count;
+  out.hash = hashOf(out.treads);
+  return out;
 }
 
 TreadUpdate TreadSimulation::update(bool key_frame) {

@@ -99,6 +99,8 @@ class TreadSimulation {
 
   /// Returns an update for replicas: a key frame, or what was pressed or cut since the last call.
   TreadUpdate update(bool key_frame);
+  /// Returns a key frame of the included blocks only, and numbers no message.
+  TreadUpdate keyFrameOf(const BlockFilter& includes) const;
 
   /// Returns the drag on each source that has a body and the grass of this shard ahead of it; it is
   /// zero above the gate and off the map.

@@ -149,6 +149,24 @@ TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>
   return out;
 }
 
+TreadDelta selectBlocks(const TreadDelta& treads, const BlockFilter& includes) {
+  TreadDelta out;
+  std::map<std::uint32_t, std::uint32_t> presses;  // new number by the old one
+  for (TreadBlockDelta block : treads.blocks) {
+    if (!includes(block.row, block.column)) continue;
+    for (TreadNodeDelta& node : block.nodes) {
+      const auto [press, is_new] =
+          presses.insert({node.press, static_cast<std::uint32_t>(out.presses.size())});
+      if (is_new) out.presses.push_back(treads.presses[node.press]);
+      node.press = press->second;
+    }
+    out.blocks.push_back(std::move(block));
+  }
+  for (const CutBlockDelta& block : treads.cuts)
+    if (includes(block.row, block.column)) out.cuts.push_back(block);
+  return out;
+}
+
 std::uint64_t hashOf(const TreadDelta& treads) {
   std::uint64_t sum = 0;
   const auto begin = [](const auto& block, std::uint64_t kind) {

@@ -42,6 +42,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   }
   if (showsAll()) {
     agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
+    near_publisher_ = handle_.advertise<NearAgents>("agents/near", 100);
     view_publisher_ = handle_.advertise<CrowdView>("agents/view", 100);
     motions_publisher_ = handle_.advertise<CrowdMotions>("agents/motions", 1, true);
     publishMotions();
@@ -57,6 +58,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 void AgentCrowd::connect() {
   subscribeToOwner("forest/layout", 4, &AgentCrowd::onLayout);
   subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
+  if (showsAll()) subscribe("forest/sensors", 40, &AgentCrowd::onSensor);
   if (isPart() && showsAll()) subscribe("agents/parts", 1000, &AgentCrowd::onPart);
   connectServices();
   repeat(options_.tf_rate, &AgentCrowd::sendFrames);
@@ -197,6 +199,7 @@ void AgentCrowd::restart() {
   parts_.clear();
   last_parts_.clear();
   joined_ = 0;
+  sensors_.clear();
   publishBorder();
   begun_ = false;
 }

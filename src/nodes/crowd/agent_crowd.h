@@ -9,7 +9,9 @@
 #include <vegetation_sim/CrowdEvent.h>
 #include <vegetation_sim/CrowdPart.h>
 #include <vegetation_sim/ForestLayout.h>
+#include <vegetation_sim/NearAgents.h>
 #include <vegetation_sim/RemoveAgents.h>
+#include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/SetAgentGoal.h>
 #include <vegetation_sim/SpawnAgents.h>
 #include <vegetation_sim/TreadEvent.h>
@@ -21,8 +23,10 @@
 #include <string>
 #include <vector>
 
+#include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd_shard.h"
 #include "nodes/base/event_node.h"
+#include "nodes/base/sensor_registry.h"
 #include "nodes/crowd/border_inbox.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
@@ -44,6 +48,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void connect() override;
   void onLayout(const ForestLayout& message);
   void onCover(const nav_msgs::OccupancyGrid& message);
+  void onSensor(const SensorInterest& message);
   void showTuning(AgentCrowdConfig& config) const override { toConfig(options_.tuning, config); }
   CrowdEvent tuningEvent(const AgentCrowdConfig& config) const override;
   bool isOutdated(const CrowdEvent& event) const override;
@@ -107,6 +112,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   // Outputs.
   AgentStates agentsAt(Nanoseconds stamp) const;
   void publishAgents(Nanoseconds stamp);
+  void publishNear(const AgentStates& all);
   void publishView(Nanoseconds stamp);
   void sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp);
   void publishMotions();
@@ -140,6 +146,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   Nanoseconds joined_{0};  // stamp of the last people of all shards
   CrowdMarkers markers_;
   CrowdRobots robots_;
+  SensorRegistry sensors_;
+  InterestRegions near_sensors_, near_viewers_;
   std::uint32_t next_id_{0};  // of the next walker that a request adds
   HashedCache<ForestLayout> layouts_;
   HashedCache<nav_msgs::OccupancyGrid> covers_;
@@ -164,11 +172,11 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   static void archive(Archive& a, SentBorder& border);
   SentBorder border_, previous_border_;  // of the last two ticks
   Walked trodden_;
-  std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0};
+  std::uint64_t treads_{0}, state_bytes_{0}, view_bytes_{0}, near_bytes_{0};
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher agents_publisher_, view_publisher_, motions_publisher_, tread_publisher_,
-      border_publisher_, parts_publisher_;
+  ros::Publisher agents_publisher_, near_publisher_, view_publisher_, motions_publisher_,
+      tread_publisher_, border_publisher_, parts_publisher_;
 };
 
 }  // namespace vegetation_sim

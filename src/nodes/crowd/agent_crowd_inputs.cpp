@@ -49,6 +49,12 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
   });
 }
 
+// Sensors affect what is sent to them, so they are no events.
+void AgentCrowd::onSensor(const SensorInterest& message) {
+  acceptInput("sensor",
+              [&] { sensors_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
+}
+
 void AgentCrowd::followRobots(Nanoseconds stamp) {
   for (const CrowdRobots::Change& change : robots_.update(stamp)) {
     CrowdEvent event;

@@ -43,20 +43,41 @@ void AgentCrowd::publishAgents(Nanoseconds stamp) {
     parts_publisher_.publish(part);
     return;
   }
-  if (agents_publisher_.getNumSubscribers() == 0) return;
+  if (agents_publisher_.getNumSubscribers() + near_publisher_.getNumSubscribers() == 0) return;
   const AgentStates message = agentsAt(stamp);
+  publishNear(message);
+  if (agents_publisher_.getNumSubscribers() == 0) return;
   state_bytes_ += ros::serialization::serializationLength(message);
   agents_publisher_.publish(message);
 }
 
-// Displays read this, sensors and plants `agents`, which does not depend on who reads it.
+// Sensors read this, which depends on none of the viewers.
+void AgentCrowd::publishNear(const AgentStates& all) {
+  if (near_publisher_.getNumSubscribers() == 0) return;
+  near_sensors_.update(sensors_.discsAt(fromMsg(all.header.stamp)));
+  NearAgents message;
+  message.header = all.header;
+  message.hash = all.hash;
+  message.discs = toMsg(near_sensors_.discs());
+  for (const AgentState& agent : all.agents)
+    if (near_sensors_.includes(agent.pose.position.x, agent.pose.position.y))
+      message.agents.push_back(agent);
+  near_bytes_ += ros::serialization::serializationLength(message);
+  near_publisher_.publish(message);
+}
+
+// Displays read this, plants and other nodes `agents`, which does not depend on who reads it.
 void AgentCrowd::publishView(Nanoseconds stamp) {
   if (isPart() || view_publisher_.getNumSubscribers() == 0) return;
   sendView(crowd_.walkers(), stamp);
 }
 
 void AgentCrowd::sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp) {
-  CrowdView message = toView(walkers, crowd_.terrain());
+  near_viewers_.update(discsOf(viewers_.eyesAt(stamp), options_.view_range));
+  std::vector<crowd::Walker> seen;
+  for (const crowd::Walker& walker : walkers)
+    if (near_viewers_.includes(walker.position.x, walker.position.y)) seen.push_back(walker);
+  CrowdView message = toView(seen, crowd_.terrain());
   message.header.stamp = toStamp(stamp);
   message.header.frame_id = options_.frame_id;
   view_bytes_ += ros::serialization::serializationLength(message);
@@ -194,6 +215,8 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);
   status.add("View sent [B]", view_bytes_);
+  status.add("Sent to sensors [B]", near_bytes_);
+  status.add("Sensors", sensors_.size());
 }
 
 // The tf frames do not affect the walkers.

@@ -142,6 +142,7 @@ void AgentCrowd::addPart(Nanoseconds stamp, std::uint32_t shard, const AgentStat
 void AgentCrowd::publishJoined(const AgentStates& all) {
   state_bytes_ += ros::serialization::serializationLength(all);
   agents_publisher_.publish(all);
+  publishNear(all);
   if (view_publisher_.getNumSubscribers() == 0) return;
   std::vector<crowd::Walker> walkers;
   for (const AgentState& agent : all.agents) walkers.push_back(fromMsg(agent));

@@ -64,6 +64,7 @@ void describe(FieldVisitor& v, CrowdOptions& o) {
   v.integer("most_trunks", o.most_trunks, "", {0, 1000000});
   v.integer("most_walkers", o.most_walkers, "", {0, static_cast<double>(crowd::MOST_WALKERS)});
   v.integer("threads", o.threads, "", {1, 64});
+  v.number("view_range", o.view_range, "m", {0.0, 100000.0});
   describe(v, o.tuning);
 }
 

@@ -44,6 +44,7 @@ struct CrowdOptions : NodeOptions {
   int most_trunks{100000};           ///< near the area
   int most_walkers{5000};            ///< requests for more are rejected
   int threads{1};                    ///< of a tick
+  double view_range{500.0};          ///< of viewers in agents/view; 0: there is no limit [m]
   std::vector<crowd::Robot> robots;  ///< id: tf frame; footprint
   crowd::MotionStyles motions;       ///< styles of which each person has one
   crowd::CrowdSettings tuning;       ///< initial values for dynamic_reconfigure

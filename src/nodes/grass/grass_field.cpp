@@ -41,6 +41,9 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   // A late subscriber gets a key frame at the next tick.
   state_publisher_ = handle_.advertise<GrassState>(
       "grass/state", 1000, [this](const ros::SingleSubscriberPublisher&) { key_frames_.demand(); });
+  near_publisher_ = handle_.advertise<NearGrass>(
+      "grass/near", 1000,
+      [this](const ros::SingleSubscriberPublisher&) { needs_near_frame_ = true; });
   wrenches_publisher_ = handle_.advertise<geometry_msgs::WrenchStamped>("grass/wrenches", 1000);
   forces_publisher_ = handle_.advertise<GrassForces>("grass/forces", 1000);
   colours_publisher_ = handle_.advertise<GrassColours>(shownTopic("grass/colours"), 1, true);
@@ -60,6 +63,7 @@ void GrassField::connect() {
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
   if (whole_) subscribe("grass/state", 1000, &GrassField::onState);
+  subscribe("forest/sensors", 40, &GrassField::onSensor);
   connectServices();
   repeat(options_.cover_rate, &GrassField::sendCover);
 }
@@ -146,6 +150,7 @@ void GrassField::setColours(std::vector<grass::ColourMask> list, Nanoseconds sta
 
 void GrassField::restart() {
   coloured_ = false;
+  sensors_.clear();
   resetGround();
   publishLayout();
 }

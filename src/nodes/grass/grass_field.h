@@ -10,7 +10,9 @@
 #include <vegetation_sim/GrassEvent.h>
 #include <vegetation_sim/GrassForces.h>
 #include <vegetation_sim/GrassState.h>
+#include <vegetation_sim/NearGrass.h>
 #include <vegetation_sim/SampleGrass.h>
+#include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/SetGrassColours.h>
 #include <vegetation_sim/Tread.h>
 #include <vegetation_sim/WindField.h>
@@ -22,6 +24,7 @@
 
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
+#include "nodes/base/sensor_registry.h"
 #include "nodes/cutters/cutter_follower.h"
 #include "nodes/grass/grass_cover.h"
 #include "nodes/grass/grass_options.h"
@@ -45,6 +48,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void onWind(const WindField& message);
   void onTread(const TreadEvent& message);
   void onState(const GrassState& message);
+  void onSensor(const SensorInterest& message);
   void showTuning(GrassFieldConfig& config) const override { toConfig(tuning_, config); }
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
   /// ENTER is an output of the recorded node.
@@ -74,6 +78,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void publishLayout();
   void setColours(std::vector<grass::ColourMask> list, Nanoseconds stamp);
   void publishState(std::int64_t tick);
+  void publishNear(const grass::TreadUpdate& update);
   void publishEntering(Nanoseconds stamp);
   GrassForces forcesAt(Nanoseconds stamp) const;
   void publishForces(Nanoseconds stamp);
@@ -114,18 +119,22 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   bool coloured_{false};  // the discs of the scenario have been published
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
+  SensorRegistry sensors_;
+  InterestRegions near_;         // viewers and sensors
+  bool needs_near_frame_{true};  // somebody begins to receive what is near them
+  std::uint32_t near_sequence_{0};
   GrassSources sources_;
   CutterFollower cutters_;
   GrassCover ground_;  // of the cover map, once it is wanted
 
   static constexpr const char* PATH = "path_";
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
-  std::uint64_t state_bytes_{0}, largest_state_{0};
+  std::uint64_t state_bytes_{0}, largest_state_{0}, near_bytes_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
 
-  ros::Publisher layout_publisher_, state_publisher_, wrenches_publisher_, forces_publisher_,
-      cover_publisher_, values_publisher_, colours_publisher_;
+  ros::Publisher layout_publisher_, state_publisher_, near_publisher_, wrenches_publisher_,
+      forces_publisher_, cover_publisher_, values_publisher_, colours_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

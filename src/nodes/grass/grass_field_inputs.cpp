@@ -54,6 +54,12 @@ void GrassField::onState(const GrassState& message) {
   if (update.layout_hash == field_->layout().hash()) whole_replica_.apply(update, *whole_);
 }
 
+// Sensors affect what is sent to them, so they are no events.
+void GrassField::onSensor(const SensorInterest& message) {
+  acceptInput("sensor",
+              [&] { sensors_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
+}
+
 void GrassField::followSources(Nanoseconds stamp) {
   const auto report = [this](const std::string& what, const std::string& why) {
     refusals_.add(what, why);

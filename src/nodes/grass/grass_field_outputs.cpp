@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nodes/grass/grass_field.h"
+#include "ros/conversions/crowd_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -22,13 +23,43 @@ void GrassField::publishEntering(Nanoseconds stamp) {
 
 void GrassField::publishState(std::int64_t tick) {
   const bool key_frame = key_frames_.isDue(tick);
-  GrassState message = toMsg(field_->update(key_frame));
+  const grass::TreadUpdate update = field_->update(key_frame);
+  publishNear(update);
+  GrassState message = toMsg(update);
   message.header.frame_id = options_.frame_id;
   const std::uint64_t bytes = ros::serialization::serializationLength(message);
   if (key_frame) key_frames_.sent(bytes);
   state_bytes_ += bytes;
   largest_state_ = std::max(largest_state_, bytes);
   state_publisher_.publish(message);
+}
+
+// Blocks that were out of all discs come with the key frame of a new disc.
+void GrassField::publishNear(const grass::TreadUpdate& update) {
+  if (near_publisher_.getNumSubscribers() == 0) return;
+  std::vector<InterestArea> wanted = discsOf(viewers_.eyesAt(update.stamp), options_.view_range);
+  for (const InterestArea& disc : sensors_.discsAt(update.stamp)) wanted.push_back(disc);
+  const bool is_new = near_.update(wanted);
+  const grass::MapLaw& law = field_->layout().map->law();
+  const double side = grass::TreadBlock::SIDE * tread_->spacing();
+  const grass::BlockFilter includes = [&](int row, int column) {
+    return near_.includes(law.origin_x + side * column, law.origin_y + side * row, side);
+  };
+  grass::TreadUpdate part = update;
+  if ((is_new || needs_near_frame_) && !update.key_frame) {
+    part = field_->keyFrameOf(includes);
+  } else {
+    part.treads = selectBlocks(update.treads, includes);
+    if (part.key_frame) part.hash = hashOf(part.treads);
+  }
+  part.sequence = near_sequence_++;
+  needs_near_frame_ = false;
+  NearGrass message;
+  message.discs = toMsg(near_.discs());
+  message.state = toMsg(part);
+  message.state.header.frame_id = options_.frame_id;
+  near_bytes_ += ros::serialization::serializationLength(message);
+  near_publisher_.publish(message);
 }
 
 // Wrenches are in the body's frame; the force acts at the source.
@@ -113,6 +144,8 @@ void GrassField::addDiagnostics(Status& status) {
   status.add("Nodes left uncut by the cap", uncut);
   status.add("State sent [B]", state_bytes_);
   status.add("Largest state [B]", largest_state_);
+  status.add("Sent to viewers and sensors [B]", near_bytes_);
+  status.add("Sensors", sensors_.size());
   status.add("Viewers", viewers_.size());
 }
 

@@ -113,6 +113,7 @@ void describe(FieldVisitor& v, GrassOptions& o) {
   v.integer("state_rate", o.state_rate, "Hz", {1, 240});
   v.number("key_frame_period", o.key_frame_period, "s", {0.05, 60.0});
   v.integer("state_bytes", o.state_bytes, "B/s", {1000, 1000000000});
+  v.number("view_range", o.view_range, "m", {0.0, 100000.0});
   v.integer("marker_points", o.marker_points, "", {900, 3000000});
   v.number("frame_wait", o.frame_wait, "s", {0.0, FrameLookup::LONGEST_WAIT});
   v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});

@@ -59,6 +59,7 @@ GrassScene loadGrassScene(const std::string& name);
 struct GrassOptions : NodeOptions {
   double key_frame_period{2.0};   ///< [s]
   int state_bytes{5000000};       ///< of key frames, a second: larger ones come less often [B/s]
+  double view_range{500.0};       ///< of viewers in grass/near; 0: there is no limit [m]
   double frame_wait{0.0};         ///< for the transforms of sources at a tick [s]
   double cover_rate{2.0};         ///< [Hz]
   double cover_resolution{0.25};  ///< [m] side of a cell

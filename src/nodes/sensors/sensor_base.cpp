@@ -102,7 +102,7 @@ bool SensorBase::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
 
 // Reports only what has happened since the last report.
 void SensorBase::reportProblems(Status& status) {
-  const Counts counts{unplaced_, landscape_.lost(), clock_.counts()};
+  const Counts counts{unplaced_, landscape_.lost(), landscape_.incomplete(), clock_.counts()};
   warnOfRefusals(status);
   warnOfInterruptions(status);
   warnOfMore(status, counts.unplaced, reported_.unplaced,
@@ -110,6 +110,8 @@ void SensorBase::reportProblems(Status& status) {
   missing_.warn(name_, status);
   warnOfMore(status, counts.lost, reported_.lost,
              "messages lost that are stamped ahead of the clock");
+  warnOfMore(status, counts.incomplete, reported_.incomplete,
+             measurements_ + " without all people or tracks in range");
   warnOfClock(status, counts.clock, reported_.clock);
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   warnOfMore(status, scene_.plants.leftOut(), 0, "plants in range left out because of leaf_budget");

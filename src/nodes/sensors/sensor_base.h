@@ -8,7 +8,7 @@
 
 #include "nodes/base/node_base.h"
 #include "nodes/sensors/sensor_options.h"
-#include "ros/replicas/landscape_replica.h"
+#include "ros/landscape/landscape_replica.h"
 #include "ros/services/frame_listener.h"
 #include "ros/services/missing_inputs.h"
 #include "ros/time/tick_clock.h"
@@ -63,7 +63,7 @@ class SensorBase : public NodeBase {
 
   std::string measurements_;
   struct Counts {
-    std::uint64_t unplaced{0}, lost{0};
+    std::uint64_t unplaced{0}, lost{0}, incomplete{0};
     TickClock::Counts clock;
   } reported_;  ///< when diagnostics were last sent
   FrameListener tf_listener_;

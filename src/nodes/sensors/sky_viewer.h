@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nodes/sensors/scanner_options.h"
-#include "ros/replicas/landscape_replica.h"
+#include "ros/landscape/landscape_replica.h"
 
 namespace vegetation_sim {
 

@@ -98,7 +98,12 @@ bool VegetationScanner::onSkyView(GetSkyView::Request& request, GetSkyView::Resp
     if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
       throw InvalidInput("stamp is not that of the last tick; others are not kept",
                          FaultCode::NOT_AVAILABLE);
+    const std::uint64_t incomplete = landscape_.incomplete();
     response.views = sky_of_requests_.view(placesOf(request), clock_.stamp());
+    if (landscape_.incomplete() > incomplete)
+      throw InvalidInput(
+          "the people or tracks there are not known yet; they are after the next ticks",
+          FaultCode::NOT_AVAILABLE);
     for (std::size_t i = 0; i < request.frames.size(); ++i)
       response.views[request.points.size() + i].frame = request.frames[i];
     response.header = skyHeader();

@@ -97,10 +97,42 @@ crowd::Walker fromMsg(const AgentState& message) {
   return out;
 }
 
-void check(const AgentStates& message) {
+void check(const std::vector<AgentState>& agents) {
   Faults faults;
-  for (const AgentState& agent : message.agents) check(agent, faults);
+  for (const AgentState& agent : agents) check(agent, faults);
   faults.throwIfAny();
+}
+
+std::vector<WalkerView> peopleOf(const std::vector<AgentState>& agents) {
+  check(agents);
+  std::vector<WalkerView> out;
+  out.reserve(agents.size());
+  for (const AgentState& agent : agents) out.push_back({fromMsg(agent), agent.pose.position.z});
+  return out;
+}
+
+std::vector<InterestDisc> toMsg(const std::vector<InterestArea>& discs) {
+  std::vector<InterestDisc> out(discs.size());
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    out[i].x = discs[i].x;
+    out[i].y = discs[i].y;
+    out[i].radius = discs[i].radius;
+  }
+  return out;
+}
+
+std::vector<InterestArea> fromMsg(const std::vector<InterestDisc>& discs) {
+  std::vector<InterestArea> out;
+  Faults faults;
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    FieldChecker checker("discs[" + std::to_string(i) + "].", faults);
+    out.push_back({discs[i].x, discs[i].y, discs[i].radius});
+    checker.number("x", out.back().x, "m", PLACES);
+    checker.number("y", out.back().y, "m", PLACES);
+    checker.number("radius", out.back().radius, "m", {0.0, 2e9});
+  }
+  faults.throwIfAny();
+  return out;
 }
 
 AgentSpawn toMsg(const crowd::Spawn& spawn) {

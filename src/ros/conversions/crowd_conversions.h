@@ -9,10 +9,12 @@
 #include <vegetation_sim/CrowdMotions.h>
 #include <vegetation_sim/CrowdRobot.h>
 #include <vegetation_sim/CrowdView.h>
+#include <vegetation_sim/InterestDisc.h>
 
 #include <memory>
 #include <vector>
 
+#include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd.h"
 #include "crowd/body/motion_style.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
@@ -22,15 +24,21 @@ namespace vegetation_sim {
 /// Converts a walker on the terrain, and its body back.
 AgentState toMsg(const crowd::Walker& walker, const terrain::HeightMap& terrain);
 crowd::Walker fromMsg(const AgentState& message);
-/// Converts received walkers. @throws InvalidInput with all faults, each with id, value and
-/// range.
-void check(const AgentStates& message);
+/// Checks received walkers. @throws InvalidInput with all faults, each with id, value and range.
+void check(const std::vector<AgentState>& agents);
+
+/// Converts the discs of NearAgents and NearGrass, and back. @throws InvalidInput for impossible
+/// ones.
+std::vector<InterestDisc> toMsg(const std::vector<InterestArea>& discs);
+std::vector<InterestArea> fromMsg(const std::vector<InterestDisc>& discs);
 
 /// A walker as a display draws it.
 struct WalkerView {
   crowd::Walker walker;
   double ground{0.0};  ///< height of the ground at the walker [m]
 };
+/// Checks and converts received walkers. @throws InvalidInput with all faults.
+std::vector<WalkerView> peopleOf(const std::vector<AgentState>& agents);
 /// Rounds walkers, by rising id, on the terrain. What no display needs is left out: radius, goal
 /// and progress.
 CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain);

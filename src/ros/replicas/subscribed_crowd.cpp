@@ -11,8 +11,17 @@ namespace vegetation_sim {
 
 void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};
-  subscribeState(handle, topic, 10);
+  subscribe_full_ = [this, handle, topic]() mutable { subscribeState(handle, topic, 10); };
+  subscribe_full_();
   subscribeMotions(handle, topic);
+}
+
+void SubscribedCrowd::listen(bool is_wanted) {
+  if (has_view_ || !subscribe_full_ || is_wanted == !subscribers_.empty()) return;
+  if (is_wanted)
+    subscribe_full_();
+  else
+    subscribers_.clear();
 }
 
 void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& topic) {
@@ -21,6 +30,7 @@ void SubscribedCrowd::subscribeView(ros::NodeHandle handle, const std::string& t
   const boost::function<void(const CrowdView&)> callback = [this](const CrowdView& message) {
     apply(message);
   };
+  has_view_ = true;
   subscribers_.push_back(handle.subscribe<CrowdView>(topic + "/view", 10, callback));
   subscribe_full_();
   subscribeMotions(handle, topic);
@@ -35,7 +45,7 @@ void SubscribedCrowd::subscribeMotions(ros::NodeHandle handle, const std::string
 
 // The publisher of the rounded people may appear after that of the others, or end before it.
 void SubscribedCrowd::selectTopic() {
-  if (!subscribe_full_) return;
+  if (!has_view_) return;
   const bool rounded = subscribers_.front().getNumPublishers() > 0;
   if (rounded && subscribers_.size() > 1)
     subscribers_.pop_back();
@@ -46,7 +56,7 @@ void SubscribedCrowd::selectTopic() {
 bool SubscribedCrowd::accepts(const AgentStates& message) {
   return receive("agents", status_, [&] {
     requireFrame(message.header.frame_id);
-    check(message);
+    check(message.agents);
     return status_;
   });
 }
@@ -54,12 +64,7 @@ bool SubscribedCrowd::accepts(const AgentStates& message) {
 void SubscribedCrowd::apply(const AgentStates& message) {
   receive("agents", status_, [&]() -> InputStatus {
     requireFrame(message.header.frame_id);
-    check(message);
-    std::vector<Person> people;
-    people.reserve(message.agents.size());
-    for (const AgentState& agent : message.agents)
-      people.push_back({fromMsg(agent), agent.pose.position.z});
-    replace(std::move(people), message.header);
+    replace(peopleOf(message.agents), message.header);
     return {true, std::to_string(people_.size()) + " people"};
   });
 }

@@ -33,6 +33,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   /// @throws ros::InvalidNameException
   void subscribeView(ros::NodeHandle handle, const std::string& topic);
   void selectTopic();
+  /// Begins or ends to receive what subscribe() has subscribed to, but for the styles of motion.
+  void listen(bool is_wanted);
   void apply(const AgentStates& message) override;
   bool accepts(const AgentStates& message) override;
   void apply(const CrowdView& message);
@@ -62,7 +64,8 @@ class SubscribedCrowd : public SubscribedReplica<AgentStates> {
   void subscribeMotions(ros::NodeHandle handle, const std::string& topic);
   void replace(std::vector<Person> people, const std_msgs::Header& header);
 
-  std::function<void()> subscribe_full_;  // to the topic without /view; null without a view
+  std::function<void()> subscribe_full_;  // to all people
+  bool has_view_{false};
   std::vector<Person> people_;
   crowd::MotionStyles motions_{crowd::ownStyles()};
   ros::Subscriber motions_subscriber_;

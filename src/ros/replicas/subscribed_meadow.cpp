@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/conversions/crowd_conversions.h"
 #include "ros/params/resources.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
@@ -12,6 +13,8 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double MEMORY_CAP = 1e9;  // [bytes] of trodden ground
+constexpr double FRESH = 0.5;       // age of an update that stands for the ground at a stamp [s]
+constexpr double REACH = 3.0;       // of blades and of the way of a sensor in a sweep [m]
 
 }  // namespace
 
@@ -24,7 +27,40 @@ void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
   if (!topics.wind.empty()) wind_.subscribe(handle, topics.wind);
   subscribers_ = {handle.subscribe(topics.layout, 1, &SubscribedMeadow::setLayout, this),
                   handle.subscribe(topics.colours, 1, &SubscribedMeadow::setColours, this)};
-  subscribeState(handle, topics.state, 100);
+  if (!topics.near.empty()) {
+    const boost::function<void(const boost::shared_ptr<const NearGrass>&)> callback =
+        [this](const boost::shared_ptr<const NearGrass>& message) {
+          if (!options_.delayed)
+            apply(*message);
+          else if (accepts(message->state))
+            delayed_near_.add(fromMsg(message->state.header.stamp), message);
+        };
+    near_subscriber_ = handle.subscribe<NearGrass>(topics.near, 100, callback);
+  }
+  if (topics.state.empty()) return;
+  subscribe_state_ = [this, handle, topic = topics.state]() mutable {
+    subscribeState(handle, topic, 100);
+  };
+  subscribe_state_();
+}
+
+// The subscriber of the state is the last one.
+void SubscribedMeadow::listen(bool is_wanted) {
+  constexpr std::size_t OTHERS = 2;
+  if (!subscribe_state_ || is_wanted == (subscribers_.size() > OTHERS)) return;
+  if (is_wanted)
+    subscribe_state_();
+  else
+    subscribers_.pop_back();
+}
+
+void SubscribedMeadow::selectTopic() {
+  if (near_subscriber_) listen(!hasNear());
+}
+
+void SubscribedMeadow::advance(Nanoseconds stamp) {
+  SubscribedReplica::advance(stamp);
+  delayed_near_.take(stamp, [this](Nanoseconds, const auto& message) { apply(*message); });
 }
 
 void SubscribedMeadow::setLayout(const GrassLayout& message) {
@@ -45,6 +81,7 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     layout_hash_ = layout_.hash();
     terrain_ = std::move(terrain);
     replica_.reset();
+    parts_.clear();
     shard_statuses_.clear();
     pressed_.clear();
     frame_ = message.header.frame_id;
@@ -73,16 +110,28 @@ bool SubscribedMeadow::accepts(const GrassState& message) {
 }
 
 void SubscribedMeadow::apply(const GrassState& message) {
-  receive("grass/state", state_status_, [&]() -> InputStatus {
+  if (!hasNear()) receiveUpdate("grass/state", message, [] { return std::vector<InterestArea>(); });
+}
+
+void SubscribedMeadow::apply(const NearGrass& message) {
+  receiveUpdate("grass/near", message.state, [&] { return fromMsg(message.discs); });
+}
+
+void SubscribedMeadow::receiveUpdate(const char* input, const GrassState& message,
+                                     const std::function<std::vector<InterestArea>()>& discs) {
+  receive(input, state_status_, [&]() -> InputStatus {
     const grass::TreadUpdate update = fromMsg(message);
+    Part part{false, discs()};
     if (!ready()) return {false, "Waiting for a layout"};
     if (update.layout_hash != layout_hash_)
       return {false, "Waiting: state belongs to another layout"};
-    if (!replica_.apply(update, *tread_))
-      return {false, "Waiting for a key frame: " + replica_.why()};
+    part.in_step = replica_.apply(update, *tread_);
+    const bool is_other_ground = parts_[update.shard].discs != part.discs;
+    parts_[update.shard] = part;
+    if (!part.in_step) return {false, "Waiting for a key frame: " + replica_.why()};
     if (update.key_frame || !update.treads.blocks.empty() || !update.treads.cuts.empty())
       ++changes_;
-    if (!update.key_frame) notePressed(update.treads);
+    if (!update.key_frame || is_other_ground) notePressed(update.treads);
     return {true, "In step"};
   });
   if (replica_.shards() > 1 && message.shard < replica_.shards())
@@ -94,6 +143,27 @@ InputStatus SubscribedMeadow::stateStatus(Nanoseconds now) const {
   return ShardStatuses::all(replica_.shards(), [&](std::uint32_t shard) {
     return shard_statuses_.of(shard, replica_.stampOf(shard), now);
   });
+}
+
+Nanoseconds SubscribedMeadow::stamp() const {
+  Nanoseconds out = 0;
+  if (parts_.size() != replica_.shards()) return out;
+  for (const auto& [shard, part] : parts_) {
+    if (!part.in_step) return 0;
+    const Nanoseconds last = replica_.stampOf(shard);
+    out = out == 0 ? last : std::min(out, last);
+  }
+  return out;
+}
+
+bool SubscribedMeadow::covers(const Vec3& centre, double radius, Nanoseconds stamp) const {
+  const Nanoseconds last = this->stamp();
+  return last != 0 && secondsBetween(last, stamp) <= FRESH &&
+         std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) {
+           return part.second.discs.empty() ||
+                  vegetation_sim::covers(part.second.discs,
+                                         {centre.x(), centre.y(), radius + REACH});
+         });
 }
 
 void SubscribedMeadow::notePressed(const grass::TreadDelta& treads) {
@@ -121,12 +191,14 @@ void SubscribedMeadow::prune(Nanoseconds stamp) {
 
 void SubscribedMeadow::forgetLater(Nanoseconds now) {
   forgetDelayed(now);
+  delayed_near_.forgetLater(now);
   bool is_later = false;
   for (std::uint32_t shard = 0; shard < replica_.shards(); ++shard)
     is_later = is_later || replica_.stampOf(shard) > now;
   if (!ready() || !is_later) return;
   tread_->clear();
   replica_.reset();
+  parts_.clear();
   shard_statuses_.clear();
   ++changes_;
   state_status_ = {false, "Waiting for a key frame: time went back"};

@@ -5,11 +5,15 @@
 #include <vegetation_sim/GrassColours.h>
 #include <vegetation_sim/GrassLayout.h>
 #include <vegetation_sim/GrassState.h>
+#include <vegetation_sim/NearGrass.h>
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
 
+#include "core/lod/interest_regions.h"
 #include "ros/replicas/shard_statuses.h"
 #include "ros/replicas/subscribed_wind.h"
 #include "vegetation_sim/grass/grass_layout.h"
@@ -25,13 +29,17 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
  public:
   struct Topics {
     std::string layout{"grass/layout"};
-    std::string wind{"wind"};  ///< empty: no wind is needed
-    std::string state{"grass/state"};
+    std::string wind{"wind"};          ///< empty: no wind is needed
+    std::string state{"grass/state"};  ///< empty: only `near` is used
     std::string colours{"grass/colours"};
+    std::string near{};  ///< NearGrass, preferred to `state` while it has a publisher; may be empty
   };
 
   explicit SubscribedMeadow(const ReplicaOptions& options = {});
-  ~SubscribedMeadow() override { subscribers_.clear(); }
+  ~SubscribedMeadow() override {
+    near_subscriber_.shutdown();
+    subscribers_.clear();
+  }
 
   /// @throws ros::InvalidNameException
   void subscribe(ros::NodeHandle handle, const Topics& topics);
@@ -39,6 +47,13 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   void setLayout(const GrassLayout& message);
   void apply(const GrassState& message) override;
   bool accepts(const GrassState& message) override;
+  void apply(const NearGrass& message);
+  /// Applies the delayed states of both topics with stamps up to `stamp`.
+  void advance(Nanoseconds stamp);
+  /// Begins or ends to receive the state of the whole meadow.
+  void listen(bool is_wanted);
+  /// For displays: ends to receive the whole while `near` has a publisher.
+  void selectTopic();
   /// Time jumped back to `now`: later tracks are dropped until the next key frame.
   void forgetLater(Nanoseconds now);
   /// Frees the memory of ground that has recovered at a stamp.
@@ -67,11 +82,25 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   const InputStatus& windStatus() const { return wind_.status(); }
   /// Returns the status of the states, of all shards. It names those that are not in use.
   InputStatus stateStatus(Nanoseconds now) const;
+  /// Stamp of the last update of the shard that is farthest behind; 0 if updates are ignored.
+  Nanoseconds stamp() const;
+  /// Returns whether all tracks within `radius` [m] of a place are known at `stamp`.
+  bool covers(const Vec3& centre, double radius, Nanoseconds stamp) const;
+  std::size_t waiting() const { return SubscribedReplica::waiting() + delayed_near_.size(); }
+  std::uint64_t lost() const { return SubscribedReplica::lost() + delayed_near_.lost(); }
   /// Why states are ignored until the next key frame; empty if they are not.
   const std::string& why() const { return replica_.why(); }
 
  private:
+  /// What the last update of a shard says.
+  struct Part {
+    bool in_step{false};
+    std::vector<InterestArea> discs{};  // that have all tracks; none: the whole meadow has
+  };
+  void receiveUpdate(const char* input, const GrassState& message,
+                     const std::function<std::vector<InterestArea>()>& discs);
   void notePressed(const grass::TreadDelta& treads);
+  bool hasNear() const { return near_subscriber_.getNumPublishers() > 0; }
 
   grass::Layout layout_;
   std::uint64_t layout_hash_{0};
@@ -82,6 +111,10 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   SubscribedWind wind_;
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;
+  std::map<std::uint32_t, Part> parts_;  // by shard
+  DelayBuffer<boost::shared_ptr<const NearGrass>> delayed_near_;
+  std::function<void()> subscribe_state_;  // null without a topic
+  ros::Subscriber near_subscriber_;
   InputStatus layout_status_, state_status_;
   ShardStatuses shard_statuses_;
 };

@@ -57,6 +57,7 @@ void GrassDisplay::light(const view::Daylight& daylight, const view::Haze& haze)
 }
 
 void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
+  source_->selectTopic();
   if (!grass_ || layouts_ != source_->layouts()) {
     layouts_ = source_->layouts();
     grass_.reset();

@@ -21,7 +21,9 @@ void GrassProperties::addTopics(rviz::Display& display) {
   wind_ = addTopic<WindField>("Wind Topic", "wind", "vegetation_sim/WindField: the wind field.",
                               display);
   state_ = addTopic<GrassState>("State Topic", "grass/state",
-                                "vegetation_sim/GrassState: trodden grass.", display);
+                                "vegetation_sim/GrassState: trodden grass. If near beside it has a "
+                                "publisher, the display reads the smaller NearGrass from there.",
+                                display);
   colours_ =
       addTopic<GrassColours>("Colours Topic", "grass/colours",
                              "vegetation_sim/GrassColours: discs that colour the grass.", display);
@@ -61,8 +63,9 @@ void GrassProperties::addLevels(rviz::Display& display) {
 }
 
 SubscribedMeadow::Topics GrassProperties::topics() const {
-  return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd(),
-          colours_->getTopicStd()};
+  const std::string state = state_->getTopicStd();
+  const std::string near = state.substr(0, state.rfind('/') + 1) + "near";
+  return {layout_->getTopicStd(), wind_->getTopicStd(), state, colours_->getTopicStd(), near};
 }
 
 double GrassProperties::frameTime() const {

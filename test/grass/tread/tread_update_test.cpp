@@ -66,6 +66,31 @@ TEST_F(TreadUpdateTest, AfterALostMessageItWaitsForAKeyFrame) {
   EXPECT_EQ(groundHash(other_), groundHash(map_));
 }
 
+// What a listener far from the rest receives: the blocks near it, to the bit.
+TEST_F(TreadUpdateTest, SelectedBlocksAreThoseOfTheWhole) {
+  drive("a", 3.0, 5.0, 2.0, 150);
+  drive("b", 5.0, 8.0, 1.0, 30);
+  const int limit = 8;
+  const BlockFilter is_near = [&](int, int column) { return column < limit; };
+  const TreadUpdate near = field_.keyFrameOf(is_near);
+  EXPECT_TRUE(near.key_frame);
+  const TreadUpdate whole = field_.update(true);
+  const TreadDelta selected = selectBlocks(whole.treads, is_near);
+  EXPECT_EQ(near.hash, hashOf(selected));
+  EXPECT_EQ(near.layout_hash, whole.layout_hash);
+  EXPECT_EQ(near.stamp, whole.stamp);
+  const std::size_t blocks = near.treads.blocks.size();
+  EXPECT_GT(blocks, 2u);
+  EXPECT_LT(blocks, whole.treads.blocks.size());
+  EXPECT_LT(selected.presses.size(), whole.treads.presses.size());
+  const BlockFilter is_far = [&](int, int column) { return column >= limit; };
+  EXPECT_EQ(near.hash + hashOf(selectBlocks(whole.treads, is_far)), whole.hash);
+  Faults faults;
+  check(selected, faults);
+  EXPECT_TRUE(faults.empty());
+  EXPECT_EQ(selectBlocks(whole.treads, [](int, int) { return false; }).presses.size(), 0u);
+}
+
 // Recovered grass is not included, and a replica frees it by itself.
 TEST_F(TreadUpdateTest, RecoveredGrassIsNotIncluded) {
   drive("a", 3.0, 5.0, 1.0, 20);

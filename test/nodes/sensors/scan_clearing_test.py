@@ -11,7 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import AgentSpawn, AgentState, AgentStates, ScanReport, TreadLaw, WindPrimitive
+from vegetation_sim.msg import AgentSpawn, AgentState, InterestDisc, NearAgents, ScanReport, TreadLaw, WindPrimitive
 from vegetation_sim.srv import RemoveWindPrimitive, SetWindPrimitive
 
 from crowd_rig import Crowd
@@ -156,15 +156,18 @@ class ScanClearing(unittest.TestCase):
         self.assertEqual(blind, [])
 
     def test_6_invalid_people_are_rejected(self):
-        people = publisher('/agents', AgentStates)
-        wait_for_readers('/agents', self.scanner.process)
+        people = publisher('/agents/near', NearAgents)
+        wait_for_readers('/agents/near', self.scanner.process)
         before = self.scanner.diagnostics()['Inputs refused']
-        for height, frame in ((math.nan, 'map'), (9.0, 'map'), (1.7, 'elsewhere')):
-            message = AgentStates(agents=[AgentState(height=height)])
+        for height, frame, radius in ((math.nan, 'map', 1.0), (9.0, 'map', 1.0), (1.7, 'elsewhere', 1.0),
+                                      (1.7, 'map', -1.0)):
+            agent = AgentState(height=height)
+            agent.pose.orientation.w = 1.0
+            message = NearAgents(agents=[agent], discs=[InterestDisc(radius=radius)])
             message.header.frame_id = frame
             people.publish(message)
             self.scanner.settle()
-        wait_for(lambda: self.scanner.diagnostics()['Inputs refused'] == before + 3, 'refusals')
+        wait_for(lambda: self.scanner.diagnostics()['Inputs refused'] == before + 4, 'refusals')
         people.unregister()
         self.assertGreater((self.sweep()['label'] == ScanReport.PERSON).sum(), 0)
 

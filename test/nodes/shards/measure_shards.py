@@ -4,8 +4,9 @@
 """Measures what the shards of a world cost and what a listener receives; see scripts/shard_rates.sh.
 Needs a master, and sets the clock.
 
-usage: measure_shards.py FOLDER TILES WALKERS SHARDS TICKS
-       of 1000 trees, beside a meadow of TILES x 1000 m2"""
+usage: measure_shards.py FOLDER TILES WALKERS SHARDS TICKS [AREA PLACES RANGE]
+       of 1000 trees, beside a meadow of AREA m2 (TILES x 1000), with viewers and lidars at PLACES (8),
+       which see people and tracks within RANGE m (500)"""
 import collections
 import os
 import sys
@@ -19,18 +20,19 @@ from forest_rig import RATE, start_node, stop, time_of
 from waiting import SimulatedClock, wait_for
 
 FIRST, WARM_UP, SIZE = 30000, 150, 200.0  # ticks; side of a tile [m]
-PLACES = 8  # viewers and sensors
+LIDAR_RANGE = 30.0  # [m]
 FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
-LISTENERS = {'display': ('/forest/view', '/grass/state', '/agents/view'),
-             'lidar': ('/forest/state', '/grass/state', '/agents')}
+LISTENERS = {'display': ('/forest/view', '/grass/near', '/agents/view'),
+             'lidar': ('/forest/state', '/grass/near', '/agents/near'),
+             'listener to all': ('/forest/state', '/grass/state', '/agents')}
 AWAITED = {'/forest/state': ForestState, '/grass/state': GrassState, '/agents': AgentStates}  # at each tick
 
 
-def write_scene(path, tiles, walkers):
+def write_scene(path, tiles, walkers, area):
     """Writes a world that is as dense at any size: the number of tiles is a square's."""
     side = round(tiles ** 0.5)
     half = 0.5 * SIZE * side
-    meadow = 0.5 * (1000.0 * tiles) ** 0.5
+    meadow = 0.5 * area ** 0.5
     nodes = int(2.0 * meadow / 4.0) + 1
     species = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../config/species')
     with open(path, 'w', encoding='utf-8') as file:
@@ -71,20 +73,22 @@ class Counter:
 
 
 def main():
-    folder, (tiles, walkers, shards, ticks) = sys.argv[1], map(int, sys.argv[2:])
+    folder, (tiles, walkers, shards, ticks) = sys.argv[1], map(int, sys.argv[2:6])
+    area, places, view_range = map(int, sys.argv[6:] or (1000 * tiles, 8, 500))
     rospy.init_node('measure_shards')
     scene = os.path.join(folder, 'scene.yaml')
-    write_scene(scene, tiles, walkers)
+    write_scene(scene, tiles, walkers, area)
     forests, meadows = [], []
     others = [start_node('wind_broadcaster', '/wind_broadcaster', {}, scenario=scene),
-              start_node('agent_crowd', '/agent_crowd', {}, scenario=scene, most_walkers=100000)]
+              start_node('agent_crowd', '/agent_crowd', {}, scenario=scene, most_walkers=100000,
+                         view_range=view_range, tf_budget=0)]
     for index in range(shards):
         share = dict(scenario=scene, shard=dict(index=index, count=shards))
         # Shards have equal parts of the budgets of one node.
         forests.append(start_node('forest_animator', '/forest_%d' % index, {}, frame_time=FRAME_TIME / shards,
                                   modal_trees=MODAL_TREES // shards, **share))
         meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000,
-                                  cover_resolution=1.0, **share))
+                                  cover_resolution=1.0, view_range=view_range, **share))
     counters = {topic: Counter(topic, AWAITED.get(topic))
                 for topics in LISTENERS.values() for topic in topics}
     viewers = rospy.Publisher('/viewer', Viewer, queue_size=100)
@@ -98,12 +102,12 @@ def main():
             if tick % 15 == 0:
                 # One place in the middle and others on the diagonal of the inner quarter, so that
                 # they are the same in a world that is larger.
-                for i in range(PLACES):
-                    place = (i - PLACES // 2) * 0.05 * SIZE * PLACES
+                for i in range(places):
+                    place = (i - places // 2) * 0.05 * SIZE * 8
                     header = Header(frame_id='map')
                     viewers.publish(Viewer(header=header, id='viewer_%d' % i, field_of_view=0.8, height=900,
                                            pose=Pose(Point(place, place, 2.0), Quaternion(w=1.0))))
-                    sensors.publish(SensorInterest(header=header, id='sensor_%d' % i, range=8.0, tolerance=0.02,
+                    sensors.publish(SensorInterest(header=header, id='sensor_%d' % i, range=LIDAR_RANGE, tolerance=0.02,
                                                    position=Point(place, place, 1.5)))
             stamp = time_of(tick)
             clock.set(stamp + rospy.Duration(0.5 / RATE))

@@ -81,15 +81,25 @@ TEST(CrowdConversions, RejectInvalidWalkers) {
       {"feet_lag", [](AgentState& a) { a.feet_lag[0].x = -NONE; }}};
   AgentStates message;
   message.agents = {standing(3), standing(7)};
-  EXPECT_EQ(errorOf([&] { check(message); }), "");
+  EXPECT_EQ(errorOf([&] { check(message.agents); }), "");
   for (const auto& [text, spoil] : faults) {
     AgentStates bad = message;
     spoil(bad.agents[1]);
-    const std::string refusal = errorOf([&] { check(bad); });
+    const std::string refusal = errorOf([&] { check(bad.agents); });
     EXPECT_NE(refusal.find("agent 7: "), std::string::npos) << text;
     EXPECT_NE(refusal.find(text), std::string::npos) << refusal;
     EXPECT_EQ(refusal.find("agent 3"), std::string::npos) << refusal;
   }
+}
+
+TEST(CrowdConversions, DiscsAreReadAsTheyWereWritten) {
+  const std::vector<InterestArea> discs = {{1.0, -2.0, 30.0}, {1e6, 0.0, 1e9}};
+  EXPECT_EQ(fromMsg(toMsg(discs)), discs);
+  std::vector<InterestDisc> bad = toMsg(discs);
+  bad[1].radius = -1.0;
+  EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("discs[1].radius = -1 m is outside 0 to 2e+09 m"),
+            std::string::npos)
+      << errorOf([&] { fromMsg(bad); });
 }
 
 TEST(CrowdConversions, AGoalWithoutItsFlagIsRejectedByName) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -63,6 +64,10 @@ std::vector<CutBlockDelta> makeCutDelta(const CutState& state, const CutMap::Nod
 /// Returns the nodes of these blocks that belong to the interval.
 TreadDelta makeDelta(const TreadState& state, const std::set<std::pair<int, int>>& blocks,
                      const TreadInterval& interval);
+/// Whether a block of this row and column is included.
+using BlockFilter = std::function<bool(int row, int column)>;
+/// Returns the included blocks, and the presses of their nodes.
+TreadDelta selectBlocks(const TreadDelta& treads, const BlockFilter& includes);
 /// Returns a hash of all values, which is equal for equal ground if all of it is included: the sum
 /// modulo 2^64 of the hashes of its blocks, so that those of all shards add up to that of the
 /// whole.

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/replicas/landscape_replica.h"
+#include "ros/landscape/landscape_replica.h"
 
 #include <algorithm>
 #include <map>
@@ -21,37 +21,54 @@ ReplicaOptions delayed(ReplicaOptions options) {
 LandscapeReplica::LandscapeReplica(ReplicaOptions options)
     : forest_(delayed(options)),
       meadow_(delayed(options)),
+      near_meadow_(delayed(options)),
       canopy_(delayed(options), SubscribedCanopy::Forest::GIVEN),
-      crowd_(delayed(options)) {}
+      crowd_(delayed(options)),
+      near_crowd_(delayed(options)) {}
 
 void LandscapeReplica::subscribe(ros::NodeHandle handle) {
   forest_.subscribe(handle, {});
-  meadow_.subscribe(handle, {"grass/layout", "", "grass/state"});  // in the wind of the forest
+  SubscribedMeadow::Topics topics;
+  topics.wind.clear();  // that of the forest
+  meadow_.subscribe(handle, topics);
+  topics.state.clear();
+  topics.near = "grass/near";
+  near_meadow_.subscribe(handle, topics);
   canopy_.subscribe(handle, {});
   crowd_.subscribe(handle, "agents");
+  near_crowd_.subscribe(handle, "agents/near");
 }
 
 void LandscapeReplica::advance(Nanoseconds stamp) {
   forest_.advance(stamp);
   meadow_.advance(stamp);
+  near_meadow_.advance(stamp);
   canopy_.advance(stamp);
   crowd_.advance(stamp);
+  near_crowd_.advance(stamp);
   crowd_.forgetSilent(stamp);
+  near_crowd_.forgetSilent(stamp);
 }
 
 void LandscapeReplica::forgetLater(Nanoseconds now) {
   forest_.forgetLater(now);
   meadow_.forgetLater(now);
+  near_meadow_.forgetLater(now);
+  tracks_.reset();
   canopy_.forgetLater(now);
   crowd_.forgetLater(now);
+  near_crowd_.forgetLater(now);
+  people_.reset();
 }
 
 std::size_t LandscapeReplica::waiting() const {
-  return forest_.waiting() + meadow_.waiting() + canopy_.waiting() + crowd_.waiting();
+  return forest_.waiting() + meadow_.waiting() + near_meadow_.waiting() + canopy_.waiting() +
+         crowd_.waiting() + near_crowd_.waiting();
 }
 
 std::uint64_t LandscapeReplica::lost() const {
-  return forest_.lost() + meadow_.lost() + canopy_.lost() + crowd_.lost();
+  return forest_.lost() + meadow_.lost() + near_meadow_.lost() + canopy_.lost() + crowd_.lost() +
+         near_crowd_.lost();
 }
 
 std::shared_ptr<const terrain::HeightMap> LandscapeReplica::ground() const {
@@ -67,7 +84,9 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
   if (forest.ready()) scene.trees.update(forest, centre, radius, stamp, threads);
   if (meadow_.ready()) {
     meadow_.prune(stamp);
-    scene.grass.update(meadow_.layout(), meadow_.tread(), meadow_.terrain(), forest.wind(), centre,
+    near_meadow_.prune(stamp);
+    chooseTracks(centre, radius, stamp);
+    scene.grass.update(meadow_.layout(), tracks().tread(), meadow_.terrain(), forest.wind(), centre,
                        radius, stamp);
     scene.grass.setColours(meadow_.colours().at(stamp));
   }
@@ -78,6 +97,7 @@ void LandscapeReplica::update(const Vec3& centre, double radius, Nanoseconds sta
     scene.crowns.update(crownsOf(scene.trees, stamp), canopy_.layouts(), plants->foliageOfPlane(),
                         centre, threads);
   }
+  choosePeople(centre, radius, stamp);
   scene.people.set(peopleAt(stamp));
 }
 
@@ -100,13 +120,34 @@ std::vector<scan::CrownSource> LandscapeReplica::crownsOf(const scan::Trees& tre
   return out;
 }
 
+void LandscapeReplica::chooseTracks(const Vec3& centre, double radius, Nanoseconds stamp) {
+  const bool is_near =
+      near_meadow_.covers(centre, radius, stamp) && near_meadow_.stamp() >= meadow_.stamp();
+  const bool is_whole = near_meadow_.stamp() <= meadow_.stamp();
+  tracks_.choose(is_near, is_whole, stamp);
+  reads_near_meadow_ = near_meadow_.ready() && (is_near || !is_whole);
+  incomplete_ += !tracks_.isComplete();
+  meadow_.listen(tracks_.needsWhole(stamp));
+}
+
+// Without a publisher of the people near sensors, as in recordings, all people are received.
+void LandscapeReplica::choosePeople(const Vec3& centre, double radius, Nanoseconds stamp) {
+  const bool is_near =
+      near_crowd_.covers(centre, radius, stamp) && near_crowd_.stamp() >= crowd_.stamp();
+  const bool is_whole = near_crowd_.stamp() <= crowd_.stamp();
+  people_.choose(is_near, is_whole, stamp);
+  reads_near_crowd_ = is_near || !is_whole;
+  incomplete_ += !people_.isComplete();
+  crowd_.listen(people_.needsWhole(stamp));
+}
+
 // A sweep lies between two ticks of the crowd.
 std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) const {
-  const double since =
-      std::clamp(secondsBetween(crowd_.stamp(), stamp), 0.0, LONGEST_EXTRAPOLATION);
+  const Nanoseconds seen = reads_near_crowd_ ? near_crowd_.stamp() : crowd_.stamp();
+  const double since = std::clamp(secondsBetween(seen, stamp), 0.0, LONGEST_EXTRAPOLATION);
   const auto terrain = ground();
   std::vector<scan::People::Person> out;
-  for (const SubscribedCrowd::Person& person : crowd_.people()) {
+  for (const WalkerView& person : nearest()) {
     crowd::Walker walker = person.walker;
     walker.position = walker.position + since * walker.velocity;
     crowd::advanceGait(since * crowd::speedOf(walker), walker);
@@ -121,13 +162,14 @@ std::string LandscapeReplica::why() const {
   if (const forest::ForestReplica& forest = forest_.replica();
       forest.ready() && !forest.why().empty())
     out = "forest: " + forest.why();
-  if (meadow_.ready() && !meadow_.why().empty())
-    out += (out.empty() ? "" : "; ") + ("grass: " + meadow_.why());
+  if (meadow_.ready() && !tracks().why().empty())
+    out += (out.empty() ? "" : "; ") + ("grass: " + tracks().why());
   return out;
 }
 
 std::string LandscapeReplica::rivals() const {
-  return forest_.rivals() + meadow_.rivals() + canopy_.rivals() + crowd_.rivals();
+  return forest_.rivals() + meadow_.rivals() + canopy_.rivals() + crowd_.rivals() +
+         near_crowd_.rivals();
 }
 
 }  // namespace vegetation_sim

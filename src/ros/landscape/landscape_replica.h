@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/landscape/near_choice.h"
+#include "ros/landscape/near_crowd.h"
 #include "ros/replicas/subscribed_canopy.h"
 #include "ros/replicas/subscribed_crowd.h"
 #include "ros/replicas/subscribed_forest.h"
@@ -31,7 +33,10 @@ class LandscapeReplica {
   void update(const Vec3& centre, double radius, Nanoseconds stamp, scan::Scene& scene,
               ThreadPool& threads);
 
-  std::size_t people() const { return crowd_.people().size(); }
+  /// Number of calls of update() that lacked people or tracks in the radius. All are received after
+  /// such a call.
+  std::uint64_t incomplete() const { return incomplete_; }
+  std::size_t people() const { return nearest().size(); }
   /// Number of states that wait for their stamp, and of those that were dropped.
   std::size_t waiting() const;
   std::uint64_t lost() const;
@@ -43,12 +48,22 @@ class LandscapeReplica {
  private:
   std::shared_ptr<const terrain::HeightMap> ground() const;
   std::vector<scan::CrownSource> crownsOf(const scan::Trees& trees, Nanoseconds stamp) const;
+  const SubscribedMeadow& tracks() const { return reads_near_meadow_ ? near_meadow_ : meadow_; }
+  void chooseTracks(const Vec3& centre, double radius, Nanoseconds stamp);
+  void choosePeople(const Vec3& centre, double radius, Nanoseconds stamp);
+  const std::vector<WalkerView>& nearest() const {
+    return reads_near_crowd_ ? near_crowd_.people() : crowd_.people();
+  }
   std::vector<scan::People::Person> peopleAt(Nanoseconds stamp) const;
 
   SubscribedForest forest_;
-  SubscribedMeadow meadow_;
+  SubscribedMeadow meadow_, near_meadow_;
   SubscribedCanopy canopy_;
   SubscribedCrowd crowd_;
+  NearCrowd near_crowd_;
+  NearChoice people_, tracks_;
+  bool reads_near_crowd_{false}, reads_near_meadow_{false};
+  std::uint64_t incomplete_{0};
 };
 
 }  // namespace vegetation_sim

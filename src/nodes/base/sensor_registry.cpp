@@ -1,0 +1,46 @@
+// Copyright 2026 vegetation_sim developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/base/sensor_registry.h"
+
+#include "ros/services/requests.h"
+#include "vegetation_sim/ros/conversions/forest_conversions.h"
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
+
+namespace vegetation_sim {
+
+std::vector<InterestArea> discsOf(const std::vector<Viewpoint>& viewers, double range) {
+  constexpr double EVERYWHERE = 1e9;  // [m]
+  std::vector<InterestArea> out;
+  for (const Viewpoint& viewer : viewers)
+    out.push_back({viewer.position.x(), viewer.position.y(), range > 0.0 ? range : EVERYWHERE});
+  return out;
+}
+
+void SensorRegistry::hear(const SensorInterest& message, const tf2_ros::Buffer& buffer,
+                          const std::string& frame_id, Nanoseconds stamp) {
+  const forest::Sensor sensor = fromMsg(message);
+  const std::string& frame = message.header.frame_id;
+  Vec3 place = sensor.position;
+  if (!frame.empty() && frame != frame_id)
+    place = transformed(poseInWorld(buffer, frame_id, frame), place);
+  if (heard_.size() >= MOST && !heard_.count(sensor.id))
+    throw InvalidInput("sensor '" + sensor.id + "' is one more than the " + std::to_string(MOST) +
+                       " allowed at once");
+  heard_[sensor.id] = {{place.x(), place.y(), sensor.range + REACH}, stamp};
+}
+
+std::vector<InterestArea> SensorRegistry::discsAt(Nanoseconds stamp) {
+  std::vector<InterestArea> out;
+  for (auto entry = heard_.begin(); entry != heard_.end();) {
+    if (entry->second.stamp == 0) entry->second.stamp = stamp;  // heard before the first tick
+    if (secondsBetween(entry->second.stamp, stamp) > LIFE) {
+      entry = heard_.erase(entry);
+      continue;
+    }
+    out.push_back(entry->second.disc);
+    ++entry;
+  }
+  return out;
+}
+
+}  // namespace vegetation_sim
