@@ -40,8 +40,8 @@ DEBIAN=(
   # These packages run the nodes and the tests and inspect topics.
   libnodeletlib-tools python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode
   python3-rosparam python3-rosservice python3-rostest python3-rostopic rosbash librostest-dev
-  python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
-  python3-std-srvs python3-tf2-msgs python3-visualization-msgs
+  python3-diagnostic-msgs python3-geometry-msgs python3-interactive-markers python3-nav-msgs
+  python3-sensor-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs
 )
 DISPLAY_DEBIAN=(librviz-dev rviz)
 # Debian 13 builds rviz with Qt 6 and does not install the plugin that draws its icons.
@@ -49,7 +49,7 @@ QT5=(qtbase5-dev)
 QT6=(qt6-base-dev qt6-svg-plugins)
 NOETIC=(
   camera-calibration-parsers camera-info-manager catkin diagnostic-msgs diagnostic-updater dynamic-reconfigure geometry-msgs
-  image-transport message-generation
+  image-transport interactive-markers message-generation
   message-runtime nav-msgs nodelet pluginlib rosbag rosbash roscpp rosgraph rosgraph-msgs roslaunch roslib
   rosmsg rosnode rosparam rospy rosservice rostest rostopic sensor-msgs std-msgs std-srvs tf2
   tf2-msgs tf2-ros topic-tools urdf visualization-msgs

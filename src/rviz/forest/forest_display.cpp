@@ -169,7 +169,9 @@ void ForestDisplay::makeGround() {
 }
 
 view::ForestReport ForestDisplay::drawn() const {
-  return forest_ ? forest_->report() : view::ForestReport();
+  view::ForestReport out = forest_ ? forest_->report() : view::ForestReport();
+  out.shadows_late = shadows_ && shadows_->isLate();
+  return out;
 }
 
 void ForestDisplay::showInputs(view::StatusBoard& board, Nanoseconds now) const {

@@ -27,6 +27,7 @@ struct ForestReport {
   std::size_t fading{0};            ///< trees between two levels
   std::size_t pieces{0};            ///< that have come off them
   int tree_sets{0};                 ///< number of selections of trees
+  bool shadows_late{false};         ///< moving shadows are of an earlier stamp than the trees
   std::array<std::size_t, forest::GEOMETRY_LEVELS> per_level{};
 };
 

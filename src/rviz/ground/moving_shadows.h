@@ -26,6 +26,8 @@ class MovingShadows {
   /// Paints trees as they are at `stamp` for about `seconds`, at least one. @return true when the
   /// shadows of all have been painted; the next call begins anew, unless all are of this stamp.
   bool paint(const forest::ForestReplica& replica, Nanoseconds stamp, double seconds);
+  /// Returns whether all shadows of light() are of `stamp`.
+  bool isComplete(Nanoseconds stamp) const { return done_ == stamp; }
   /// Returns the pixels that have changed since the last call.
   Window takeChanged();
   /// Returns the share of sunlight that reaches each pixel of the plot, south first, as of the last

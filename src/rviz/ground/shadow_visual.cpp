@@ -90,7 +90,9 @@ void ShadowVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
                           const Vec3& viewer) {
   if (!moving_) return;
   moving_->follow(viewer);
-  if (!moving_->paint(replica, stamp, UPDATE_TIME)) return;
+  const bool painted = moving_->paint(replica, stamp, UPDATE_TIME);
+  late_ = !moving_->isComplete(stamp);
+  if (!painted) return;
   const Window changed = moving_->takeChanged();
   if (changed.columns * changed.rows == 0) return;
   texture_.update(changed.column, moving_->edge() - changed.row - changed.rows,

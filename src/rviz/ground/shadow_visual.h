@@ -28,6 +28,9 @@ class ShadowVisual {
   /// Moves the shadows on, for some milliseconds. Does nothing for shadows at rest.
   void update(const forest::ForestReplica& replica, Nanoseconds stamp, const Vec3& viewer);
 
+  /// Returns whether shadows are of an earlier stamp than that of the last update().
+  bool isLate() const { return late_; }
+
   void light(const Daylight& daylight, const Haze& haze);
 
  private:
@@ -35,6 +38,7 @@ class ShadowVisual {
                const Image& picture, std::unique_ptr<MovingShadows>&& moving);
   Ogre::SceneNode* node_;                  // owned by Ogre, destroyed in the destructor
   std::unique_ptr<MovingShadows> moving_;  // null: at rest
+  bool late_{false};
   Texture texture_;
   Material material_;
   Batch veil_;

@@ -12,18 +12,79 @@ import unittest
 import rosnode
 import rospy
 import rostest
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import Twist, Vector3, WrenchStamped
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log as LogMessage
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import InteractiveMarkerFeedback
 
 from forest_rig import TickClock
 from grass_rig import RATE, Meadow
 from waiting import DEADLINE, wait_for
-from watched_node import Log
+from watched_node import Log, publisher
 
+RADIUS = 0.45  # of the stone [m]
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
-         'hills': ['/agent_crowd', '/forest_animator', '/grass_field', '/wind_broadcaster'],
+         'hills': ['/agent_crowd', '/forest_animator', '/grass_field', '/stone', '/wind_broadcaster'],
          'mowing': ['/mower', '/grass_field', '/wind_broadcaster'],
          'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
+
+
+class User:
+    """Rolls the stone, and knows where it is."""
+
+    def __init__(self, scenarios):
+        self.scenarios, self.frames = scenarios, Log('/tf', TFMessage)
+        self.errors = Log('/rosout', LogMessage)
+        self.twists = publisher('/stone/cmd_vel', Twist)
+        self.drags = publisher('/stone/feedback', InteractiveMarkerFeedback)
+        wait_for(lambda: all(p.get_num_connections() for p in (self.twists, self.drags)), 'a stone')
+        scenarios.run_until(self.places, 'the frame of the stone')
+        scenarios.addCleanup(self.close)
+
+    def places(self):
+        """Returns all transforms of the stone."""
+        return [t.transform for message in list(self.frames.messages) for t in message.transforms
+                if t.child_frame_id == 'stone']
+
+    def roll(self, ticks, x, y, turn=0.0):
+        """Commands a velocity at each tick."""
+        for _ in range(ticks):
+            self.twists.publish(Twist(linear=Vector3(x, y, 0.0), angular=Vector3(0.0, 0.0, turn)))
+            self.scenarios.pass_ticks(1)
+
+    def drag(self, x, y, frame='map'):
+        feedback = InteractiveMarkerFeedback(marker_name='stone', client_id='user',
+                                             event_type=InteractiveMarkerFeedback.POSE_UPDATE)
+        feedback.header.frame_id = frame
+        feedback.pose.position.x, feedback.pose.position.y = x, y
+        self.drags.publish(feedback)
+
+    def wait_for_error(self, text):
+        self.errors.wait(lambda all: [m for m in all if text in m.msg], text)
+
+    def close(self):
+        for end in (self.frames, self.errors):
+            end.close()
+        for end in (self.twists, self.drags):
+            end.unregister()
+
+
+def distance(place, way):
+    """Returns the distance of a place from the nearest of a way [m]."""
+    return min(math.hypot(place[0] - x, place[1] - y) for x, y in way)
+
+
+def turn_between(a, b):
+    """Returns the vector of the rotation from a to b [rad]."""
+    c = (-a.x, -a.y, -a.z, a.w)
+    x, y, z, w = (b.w * c[0] + b.x * c[3] + b.y * c[2] - b.z * c[1],
+                  b.w * c[1] - b.x * c[2] + b.y * c[3] + b.z * c[0],
+                  b.w * c[2] + b.x * c[1] - b.y * c[0] + b.z * c[3],
+                  b.w * c[3] - b.x * c[0] - b.y * c[1] - b.z * c[2])
+    size = math.sqrt(x * x + y * y + z * z)
+    angle = 2.0 * math.atan2(size, w)
+    return tuple(angle * part / size for part in (x, y, z))
 
 
 class GrassScenarios(unittest.TestCase):
@@ -74,6 +135,63 @@ class GrassScenarios(unittest.TestCase):
         self.assertGreater(len({round(s.height, 2) for s in samples}), 5)
         self.assertEqual(self.meadow.diagnostics()['Jumps of sources'], 0)
 
+    # S2-29: a user rolls the stone by twists and by its marker. Grass is down on its way and nowhere
+    # else.
+    def test_a_user_rolls_the_stone(self):
+        self.start('meadow')
+        user = User(self)
+        user.roll(5, -1.5, 0.5)
+        first = user.places()[-1]
+        user.roll(40, -1.5, 0.5)
+        last = user.places()[-1]
+        way = (last.translation.x - first.translation.x, last.translation.y - first.translation.y)
+        self.assertGreater(math.hypot(*way), 0.8)
+        self.assertAlmostEqual(way[1] / way[0], -0.5 / 1.5, places=6)
+        turn = turn_between(first.rotation, last.rotation)
+        self.assertAlmostEqual(turn[0], -way[1] / RADIUS, places=6)
+        self.assertAlmostEqual(turn[1], way[0] / RADIUS, places=6)
+        self.assertAlmostEqual(turn[2], 0.0, places=6)
+        self.pass_ticks(RATE)  # The last command expires.
+        stands = user.places()[-1]
+        self.pass_ticks(RATE)
+        self.assertEqual(user.places()[-1].translation, stands.translation)
+        to = (stands.translation.x - 1.0, stands.translation.y - 4.0)
+        user.drag(*to)
+        self.run_until(lambda: distance(to, [(t.translation.x, t.translation.y)
+                                             for t in user.places()]) < 1e-6, 'a dragged stone')
+        self.pass_ticks(5)
+        way = [(t.translation.x, t.translation.y) for t in user.places()]
+        self.assertGreater(min(s.tilt for s in self.meadow.samples(way[::10])), 1.2)
+        x, y = to
+        beside = [place for place in [(x + 0.5 * i, y + 0.5 * j) for i in range(-8, 9)
+                                      for j in range(-8, 17)] if distance(place, way) > 1.3]
+        self.assertGreater(len(beside), 100)
+        self.assertEqual(max(s.tilt for s in self.meadow.samples(beside)), 0.0)
+
+    def test_the_stone_rejects_bad_commands(self):
+        self.start('meadow')
+        user = User(self)
+        user.roll(RATE, 0.0, 0.0)
+        before = user.places()[-1].translation
+        user.roll(1, float('nan'), 0.0)
+        user.wait_for_error('stone/cmd_vel: linear.x = nan m/s is not within -3 to 3 m/s')
+        user.roll(1, 0.0, -3.5)
+        user.wait_for_error('stone/cmd_vel: linear.y = -3.5 m/s is not within -3 to 3 m/s')
+        user.roll(1, 2.9, 2.9)
+        user.wait_for_error('stone/cmd_vel: speed = 4.10122 m/s is not within 0 to 3 m/s')
+        user.roll(1, 0.0, 0.0, float('inf'))
+        user.wait_for_error('stone/cmd_vel: angular.z = inf rad/s is not within -3 to 3 rad/s')
+        user.drag(1.0, float('nan'))
+        user.wait_for_error('stone/feedback: position.y = nan m is not within -100000 to 100000 m')
+        user.drag(1.0, 0.0, 'camera')
+        user.wait_for_error("stone/feedback: frame 'camera' is not the world frame 'map'")
+        self.pass_ticks(RATE)
+        self.assertEqual(user.places()[-1].translation, before)
+
+    def pass_ticks(self, count):
+        end = self.clock.tick + count
+        self.run_until(lambda: self.clock.tick >= end, 'time')
+
     def test_a_mower_cuts_a_meadow(self):
         self.start('mowing')
         self.run_until(lambda: self.meadow.at(-3.0, -4.5).swath > 0.0, 'a mower that cuts')
@@ -93,6 +211,21 @@ class GrassScenarios(unittest.TestCase):
         samples = self.meadow.samples([(p.x, p.y) for p in down])
         self.assertLess(max(abs(s.position.z - p.z) for s, p in zip(samples, down)), 1e-6)
         self.assertGreater(min(s.tilt for s in samples if s.inside), 1.0)
+        user = User(self)
+        user.roll(2 * RATE, 1.0, 0.0, 0.5)
+        self.check_rest([t.translation for t in user.places()])
+
+    def check_rest(self, places):
+        """Checks that a stone touches the slope that it has climbed or descended, and treads it."""
+        self.assertGreater(abs(places[-1].z - places[0].z), 0.1)
+        step = 0.02
+        for place in places[::10]:
+            here, east, north = (s.position.z for s in self.meadow.samples(
+                [(place.x, place.y), (place.x + step, place.y), (place.x, place.y + step)]))
+            slope = math.hypot(east - here, north - here) / step
+            self.assertAlmostEqual((place.z - here) / math.hypot(1.0, slope), RADIUS, delta=0.01)
+        self.assertGreater(min(s.tilt for s in self.meadow.samples(
+            [(place.x, place.y) for place in places[:-10:10]])), 1.0)
 
     def treads(self):
         return [e.tread for e in self.meadow.events.messages if e.tread.source.startswith('walker_')]

@@ -14,6 +14,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr int TREES = 16;
+const Ogre::Vector3 SHADE(9.f, 13.5f, 0.f);  // on open ground, shaded by a tree
 
 // rviz can be started only once in a process, so all tests share one rig. Each test has its own
 // display.
@@ -45,23 +46,37 @@ class ForestDisplayTest : public testing::Test {
       return done();
     });
   }
+  void expectNoPops();
 
   DisplayRig& rig{*shared_rig};
   ForestDisplay* display{nullptr};
 };
 
-// The property replaces shadows that are painted on the ground by moving ones, and back.
-// moving_shadows_test has their motion.
+// With the property, the ground differs between two instants of a gust; without it, it does not.
+// The camera sees ground between the trees and nothing else.
 TEST_F(ForestDisplayTest, ShadowsMoveByAProperty) {
   ASSERT_TRUE(drawn());
-  const auto seen = [&](bool moving) {
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  const auto seen = [&](bool moving, double seconds) {
     display->subProp("Moving Shadows")->setValue(moving);
+    rig.setTime(rig.now() + seconds);
+    EXPECT_TRUE(rig.until([&] { return ros::Time::now().toSec() > rig.now() - 0.01; }));
     rig.frames(5);
+    EXPECT_TRUE(rig.until([&] { return !display->drawn().shadows_late; }));
     return steadyPicture(rig);
   };
-  const std::vector<std::uint8_t> painted = seen(false), moving = seen(true), again = seen(false);
-  EXPECT_LT(rig.largestChange(painted, again), 0.5);
-  EXPECT_GT(rig.largestChange(painted, moving), 1.0);
+  view.lookAt(SHADE);
+  view.subProp("Pitch")->setValue(1.5);
+  view.subProp("Distance")->setValue(2.0);
+  const std::size_t trees = display->drawn().trees;
+  const auto still = seen(false, 0.0), later = seen(false, 1.3);
+  EXPECT_LT(rig.largestChange(still, later), 0.1);
+  const auto first = seen(true, 0.0), second = seen(true, 1.3), again = seen(false, 0.0);
+  std::cout << "largest change of 16 x 16 pixels: " << rig.largestChange(still, later)
+            << " at rest, " << rig.largestChange(first, second) << " moving\n";
+  EXPECT_GT(rig.largestChange(first, second), 0.8);
+  EXPECT_LT(rig.largestChange(still, again), 0.1);
+  EXPECT_EQ(display->drawn().trees, trees);
 }
 
 // S2-16: trees are built from the layout at run time and are visible.
@@ -95,8 +110,17 @@ TEST_F(ForestDisplayTest, NothingMovesWhileTheClockStands) {
 }
 
 // Trees behind the camera are neither drawn nor moved. Trees that come into view are in their place
-// at once.
+// at once. Moving shadows, which are some frames late, change neither.
 TEST_F(ForestDisplayTest, TreesBehindTheCameraAreLeftOutAndDoNotPop) {
+  expectNoPops();
+}
+
+TEST_F(ForestDisplayTest, TreesBehindTheCameraDoNotPopWithMovingShadows) {
+  display->subProp("Moving Shadows")->setValue(true);
+  expectNoPops();
+}
+
+void ForestDisplayTest::expectNoPops() {
   display->subProp("Update Rate")->setValue(120.f);  // Every frame has an update.
   display->subProp("Triangles")->setValue(1000);  // The coarsest level is used in every direction.
   ASSERT_TRUE(drawn());
@@ -117,7 +141,8 @@ TEST_F(ForestDisplayTest, TreesBehindTheCameraAreLeftOutAndDoNotPop) {
   const auto isStill = [&] {
     before = rig.picture();
     rig.frames(10);
-    return rig.picture() == before && display->drawn().waiting == 0;
+    const view::ForestReport drawn = display->drawn();
+    return rig.picture() == before && drawn.waiting == 0 && !drawn.shadows_late;
   };
   turn(in);
   ASSERT_TRUE(rig.until(isStill));
@@ -128,6 +153,7 @@ TEST_F(ForestDisplayTest, TreesBehindTheCameraAreLeftOutAndDoNotPop) {
   rig.setTime(rig.now() + 0.7);
   ASSERT_TRUE(rig.until([&] { return ros::Time::now().toSec() > rig.now() - 0.01; }));
   rig.frames(3);
+  ASSERT_TRUE(rig.until([&] { return !display->drawn().shadows_late; }));
   const std::vector<std::uint8_t> away = rig.picture(), then = before;
   turn(in);
   std::vector<std::uint8_t> first;
