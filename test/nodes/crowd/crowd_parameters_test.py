@@ -22,6 +22,7 @@ BAD = {
     'most_trunks': (-5, 'most_trunks = -5'),
     'most_walkers': (10 ** 9, 'most_walkers = 1e+09'),
     'threads': (0, 'threads = 0 is outside 1 to 64'),
+    'view_range': (-1.0, 'view_range = -1 m is outside 0 to 100000'),
     'replay_delay': (-1.0, 'replay_delay = -1 s is outside 0 to 10'),
     'sensor_range': (0.0, 'sensor_range = 0 m is outside 0.5 to 20'),
     'neighbours': (99, 'neighbours = 99 is outside 1 to 8'),

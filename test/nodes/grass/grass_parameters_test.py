@@ -12,7 +12,7 @@ NUMBERS = {
     'key_frame_period': (' s', 0.05, 60), 'markers_rate': (' Hz', 0.1, 60),
     'cover_rate': (' Hz', 0.1, 60), 'cover_resolution': (' m', 0.02, 100),
     'cover_density': (' 1/m^2', 1, 20000), 'cover_resistance': (' N s/m', 0.001, 1e8),
-    'cover_age': (' s', 1, 1e9), 'viewer_field_of_view': (' rad', 0.01, 3.1),
+    'cover_age': (' s', 1, 1e9), 'view_range': (' m', 0, 100000), 'viewer_field_of_view': (' rad', 0.01, 3.1),
     'checkpoint_period': (' s', 0, 86400), 'frame_wait': (' s', 0, 60),
     'replay_delay': (' s', 0, 10), 'drag': (' N s/m', 0, 1000), 'height_gate': (' m', 0, 1000),
     'tread_radius': (' m', 0.005, 5), 'tread_reach': (' m', 0.01, 10),
