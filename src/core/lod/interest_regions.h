@@ -23,8 +23,8 @@ class InterestRegions {
   /// Keeps the discs that cover a wanted one, drops the others, and adds what is missing.
   /// @return whether a disc has been added, or the last one has been dropped.
   bool update(const std::vector<InterestArea>& wanted);
-  /// Returns whether a square touches a disc. Without discs, all squares do: nobody has said what
-  /// is wanted. @param side of the square, with its lower corner at x, y [m]; 0: a point.
+  /// Returns whether a square touches a disc. Without discs, all squares do, since no listener
+  /// is known. @param side of the square, with its lower corner at x, y [m]; 0: a point.
   bool includes(double x, double y, double side = 0.0) const;
   const std::vector<InterestArea>& discs() const { return discs_; }
 

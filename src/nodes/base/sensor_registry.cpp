@@ -23,18 +23,18 @@ void SensorRegistry::hear(const SensorInterest& message, const tf2_ros::Buffer& 
   Vec3 place = sensor.position;
   if (!frame.empty() && frame != frame_id)
     place = transformed(poseInWorld(buffer, frame_id, frame), place);
-  if (heard_.size() >= MOST && !heard_.count(sensor.id))
+  if (announced_.size() >= MOST && !announced_.count(sensor.id))
     throw InvalidInput("sensor '" + sensor.id + "' is one more than the " + std::to_string(MOST) +
                        " allowed at once");
-  heard_[sensor.id] = {{place.x(), place.y(), sensor.range + REACH}, stamp};
+  announced_[sensor.id] = {{place.x(), place.y(), sensor.range + REACH}, stamp};
 }
 
 std::vector<InterestArea> SensorRegistry::discsAt(Nanoseconds stamp) {
   std::vector<InterestArea> out;
-  for (auto entry = heard_.begin(); entry != heard_.end();) {
+  for (auto entry = announced_.begin(); entry != announced_.end();) {
     if (entry->second.stamp == 0) entry->second.stamp = stamp;  // heard before the first tick
     if (secondsBetween(entry->second.stamp, stamp) > LIFE) {
-      entry = heard_.erase(entry);
+      entry = announced_.erase(entry);
       continue;
     }
     out.push_back(entry->second.disc);

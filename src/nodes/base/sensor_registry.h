@@ -33,15 +33,15 @@ class SensorRegistry {
             const std::string& frame_id, Nanoseconds stamp);
   /// Returns what the sensors meet, in order of ids. Forgets sensors without messages for LIFE.
   std::vector<InterestArea> discsAt(Nanoseconds stamp);
-  std::size_t size() const { return heard_.size(); }
-  void clear() { heard_.clear(); }
+  std::size_t size() const { return announced_.size(); }
+  void clear() { announced_.clear(); }
 
  private:
-  struct Heard {
+  struct Announced {
     InterestArea disc;
     Nanoseconds stamp{0};
   };
-  std::map<std::string, Heard> heard_;
+  std::map<std::string, Announced> announced_;
 };
 
 }  // namespace vegetation_sim

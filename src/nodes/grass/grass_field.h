@@ -121,7 +121,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   KeyFrames key_frames_;
   SensorRegistry sensors_;
   InterestRegions near_;         // viewers and sensors
-  bool needs_near_frame_{true};  // somebody begins to receive what is near them
+  bool needs_near_frame_{true};  // a listener is new
   std::uint32_t near_sequence_{0};
   GrassSources sources_;
   CutterFollower cutters_;
