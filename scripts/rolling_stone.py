@@ -78,7 +78,7 @@ class Ground:
             self.grass = Grass(rospy.resolve_name('grass_field'))
 
     def at(self, x, y):
-        """Returns the height [m] and the normal, or the last ones if grass_field does not answer."""
+        """Returns height [m] and normal, or the last ones if grass_field does not answer."""
         if not self.grass:
             return self.last
         try:
