@@ -30,7 +30,7 @@ TOP_SPEED = 3.0  # [m/s]
 TOP_TURN = 3.0  # [rad/s]
 FARTHEST = 1e5  # Largest coordinate of a place to which the stone rolls [m].
 COMMAND_TIMEOUT = 0.5  # A command expires after this time. [s]
-LONGEST_STEP = 0.5  # A longer step of the clock moves nothing. [s]
+LONGEST_STEP = 0.5  # A command does not act in a longer step of the clock. [s]
 SLOPE_STEP = 0.1  # Distance of the points that give the slope of the ground [m].
 
 
@@ -78,7 +78,7 @@ class Ground:
             self.grass = Grass(rospy.resolve_name('grass_field'))
 
     def at(self, x, y):
-        """Returns the height [m] and the normal, or the last ones if grass_field does not answer."""
+        """Returns height [m] and normal, or the last ones if grass_field does not answer."""
         if not self.grass:
             return self.last
         try:
@@ -155,9 +155,8 @@ class RollingStone:
         if self.at is None:
             self.at = place(now.to_sec() % PERIOD) if self.on_curve else self.start
             self.centre = self.centre_at(*self.at)[0]
-        if not 0.0 < dt < LONGEST_STEP:
-            return
-        self.at = self.next_place(now, dt)
+        # The curve follows from the time alone, so that it has no leap after a long step.
+        self.at = self.next_place(now, dt if 0.0 < dt < LONGEST_STEP else 0.0)
         before, (self.centre, up) = self.centre, self.centre_at(*self.at)
         way = [b - a for a, b in zip(before, self.centre)]
         if sum(part * part for part in way) < 1.0:  # The first transform of the curve is a jump.
