@@ -122,6 +122,8 @@ TEST_F(GrassDisplayTest, ReadsTheTracksNearIt) {
   rig.publishNear({0.0, 0.0}, 100.0);
   EXPECT_TRUE(
       rig.until([&] { return display->drawn().trodden > 0 && display->paintedTracks() > 3; }));
+  rig.stopNear();  // for the tests that follow
+  EXPECT_TRUE(rig.until([&] { return rig.readersOfAll() == 1; }));
 }
 
 TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {

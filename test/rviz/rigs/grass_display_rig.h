@@ -78,7 +78,7 @@ class GrassRig : public ViewRig {
   }
   /// Publishes the tracks around a place as a node does that knows its listeners.
   void publishNear(const grass::Point& place, double radius) {
-    if (!near_) near_ = nh_.advertise<NearGrass>("grass/near", 10, true);
+    if (near_.getTopic().empty()) near_ = nh_.advertise<NearGrass>("grass/near", 10, true);
     NearGrass message;
     message.discs.resize(1);
     message.discs[0].x = place.x;
@@ -92,6 +92,7 @@ class GrassRig : public ViewRig {
     });
     near_.publish(message);
   }
+  void stopNear() { near_.shutdown(); }
   /// Number of displays that receive the tracks of the whole meadow.
   std::uint32_t readersOfAll() const { return state_.getNumSubscribers(); }
   void publishState() { publishState(now()); }
