@@ -111,6 +111,21 @@ TEST_F(GrassDisplayTest, LevelsFadeIntoOneAnother) {
   EXPECT_LT(step, 0.45 * all);
 }
 
+// Once tracks near listeners are published, only these are received, and drawn where they appear.
+TEST_F(GrassDisplayTest, ReadsTheTracksNearIt) {
+  ASSERT_TRUE(settled());
+  rig.tread({-4.0, 0.0}, {4.0, 0.0});
+  ASSERT_TRUE(rig.until([&] { return display->drawn().trodden > 0; }));
+  EXPECT_EQ(rig.readersOfAll(), 1U);
+  rig.publishNear({-1000.0, 0.0}, 100.0);
+  EXPECT_TRUE(rig.until([&] { return display->drawn().trodden == 0 && rig.readersOfAll() == 0; }));
+  rig.publishNear({0.0, 0.0}, 100.0);
+  EXPECT_TRUE(
+      rig.until([&] { return display->drawn().trodden > 0 && display->paintedTracks() > 3; }));
+  rig.stopNear();  // for the tests that follow
+  EXPECT_TRUE(rig.until([&] { return rig.readersOfAll() == 1; }));
+}
+
 TEST_F(GrassDisplayTest, SurvivesTimeGoingBack) {
   ASSERT_TRUE(settled());
   rig.tread({-4.0, 0.0}, {4.0, 0.0});

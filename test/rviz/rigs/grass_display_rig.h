@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/NearGrass.h>
+
 #include "grass/tread_simulation.h"
 #include "rviz/grass/grass_display.h"
 #include "rviz/rigs/view_rig.h"
@@ -74,22 +76,45 @@ class GrassRig : public ViewRig {
     tread_->lift(1);
     publishState();
   }
+  /// Publishes the tracks around a place as a node does that knows its listeners.
+  void publishNear(const grass::Point& place, double radius) {
+    if (near_.getTopic().empty()) near_ = nh_.advertise<NearGrass>("grass/near", 10, true);
+    NearGrass message;
+    message.discs.resize(1);
+    message.discs[0].x = place.x;
+    message.discs[0].y = place.y;
+    message.discs[0].radius = radius;
+    const grass::MapLaw& law = tread_->law();
+    const double side = grass::TreadBlock::SIDE * tread_->spacing();
+    message.state = stateAt(now(), [&](int row, int column) {
+      return std::hypot(law.origin_x + side * column - place.x,
+                        law.origin_y + side * row - place.y) < radius;
+    });
+    near_.publish(message);
+  }
+  void stopNear() { near_.shutdown(); }
+  /// Number of displays that receive the tracks of the whole meadow.
+  std::uint32_t readersOfAll() const { return state_.getNumSubscribers(); }
   void publishState() { publishState(now()); }
   void publishState(double stamp) {
+    state_.publish(stateAt(stamp, [](int, int) { return true; }));
+  }
+
+ private:
+  GrassState stateAt(double stamp, const grass::BlockFilter& includes) {
     grass::TreadUpdate update;
     update.stamp = fromSeconds(stamp);
     update.sequence = ++sequence_;
     update.key_frame = true;
     update.layout_hash = hash_;
-    update.treads = snapshotTreads(tread_->state(), update.stamp);
+    update.treads = selectBlocks(snapshotTreads(tread_->state(), update.stamp), includes);
     update.hash = hashOf(update.treads);
     GrassState message = toMsg(update);
     message.header.frame_id = "map";
-    state_.publish(message);
+    return message;
   }
 
- private:
-  ros::Publisher layout_, wind_, state_, colours_;
+  ros::Publisher layout_, wind_, state_, near_, colours_;
   std::unique_ptr<grass::TreadMap> tread_;
   std::uint64_t hash_{0};
   std::uint32_t sequence_{0};
