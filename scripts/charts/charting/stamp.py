@@ -84,4 +84,5 @@ def text_of(stamp):
     """Returns the line below a chart."""
     if not stamp:
         return ''
-    return 'commit %s, %s, %s' % (stamp['commit'], stamp['machine'], stamp['extent'])
+    run = {'usual': 'default'}.get(stamp['extent'], stamp['extent'])
+    return 'commit %s, %s, %s run' % (stamp['commit'], stamp['machine'], run)

@@ -106,7 +106,7 @@ def overlap(a, b):
 
 def note(axes, x, y, text, offset=(6, 4), **options):
     axes.annotate(text, (x, y), textcoords='offset points', xytext=offset, fontsize=7.5,
-                  color='0.25', **options)
+                  **{'color': '0.25', **options})
 
 
 def edges_of(centres):

@@ -20,6 +20,9 @@ LATER = ('#AA4499', '#999933')  # colours of further parts (Tol)
 
 def draw(rows):
     scenarios = groups(rows, 'scenario')
+    slowest_first = sorted(scenarios, reverse=True, key=lambda name: next(
+        row.ms_99 for row in scenarios[name] if row.part == 'frame'))
+    scenarios = {name: scenarios[name] for name in slowest_first}
     figure, ((axes,),) = style.figure('Processor time of a frame by part, one core',
                                       size=(8.0, 1.7 + 0.6 * len(scenarios)))
     parts = list(dict.fromkeys(row.part for row in rows if row.part != 'frame'))
@@ -38,6 +41,9 @@ def draw(rows):
         axes.plot([total.ms, total.ms_99], [name, name], '-', color=style.BLACK, marker='|')
         axes.annotate('%.2g ms, 99 %% below %.2g ms' % (total.ms, total.ms_99),
                       (total.ms_99, name), xytext=(6, 0), textcoords='offset points', va='center')
+    for rate in (60, 30):
+        axes.axvline(1e3 / rate, color=style.BLACK, linewidth=0.8, linestyle=':')
+        axes.annotate('%d Hz' % rate, (1e3 / rate, -0.6), xytext=(3, 0), textcoords='offset points')
     axes.set_xlim(0.0, 1.35 * longest)
     axes.invert_yaxis()
     style.label(axes, 'median over frames [ms]; the line ends where 99 % of frames do',

@@ -21,7 +21,7 @@ def draw(rows):
     costs.loglog(trees, [row.asked_ms for row in rows], 'o--', color=style.GREY,
                  label='what the tolerance asks for')
     costs.loglog(trees, [row.cost_ms for row in rows], 's-', color=style.BLUE,
-                 label='what the governor chose, by its estimate')
+                 label='what the governor chose, by the estimate that the budget limits')
     costs.fill_between(trees, [row.least_ms for row in rows], [row.cost_ms for row in rows],
                        color=style.BLUE, alpha=0.25)
     costs.loglog(trees, [row.choice_ms for row in rows], '^-', color=style.ORANGE,
@@ -32,7 +32,7 @@ def draw(rows):
     bound(costs, rows, rows[0].budget_ms, 'budget')
     style.label(costs, 'trees', 'processor time of a frame [ms]', 'cost')
     errors.loglog(trees, [row.error_px for row in rows], 'D-', color=style.RED,
-                  label='of the tree that is farthest off')
+                  label='largest of all trees')
     errors.loglog(trees, [row.median_px for row in rows], 'v-', color=style.BLUE,
                   label='of the median tree that moves')
     bound(errors, rows, 1.0, 'tolerance')
@@ -40,7 +40,7 @@ def draw(rows):
     changes.semilogx(trees, [row.changes for row in rows], 'o-', color=style.BLUE,
                      label='of the tree that changes most')
     changes.set_ylim(0.0, 1.3)
-    bound(changes, rows, 1.0, 'bar')
+    bound(changes, rows, 1.0, 'required: below')
     style.label(changes, 'trees', 'changes of tier per second', 'changes in a steady breeze')
     for axes in (costs, errors, changes):
         axes.legend()

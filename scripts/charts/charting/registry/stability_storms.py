@@ -10,8 +10,8 @@ from charting.tables import groups
 
 
 def draw(rows):
-    figure, (panels,) = style.figure('The default in a storm of 30 times the gust: largest bend of '
-                                     'any joint', 1, 2, size=(5.0, 4.2), sharey=True)
+    figure, (panels,) = style.figure('The default in a storm of 30 times the gust stays bounded: '
+                                     'largest bend of any joint', 1, 2, size=(5.0, 4.2), sharey=True)
     for axes, (name, each) in zip(panels, groups(rows, 'method').items()):
         apart, steps = (np.array(sorted({row[key] for row in each})) for key in 'xy')
         order = sorted(each, key=lambda row: (row.x, row.y))
@@ -22,6 +22,9 @@ def draw(rows):
         broken = [row for row in each if not np.isfinite(row.theory)]
         axes.plot([np.log10(1e3 * row.y) for row in broken],
                   [np.log10(row.x) for row in broken], 'rx')
+        axes.axvline(np.log10(1e3 / 240), color='white', linestyle=':')
+        style.note(axes, np.log10(1e3 / 240), np.log10(apart[0]), 'step of the nodes', offset=(4, 4),
+                   color='white')
         style.label(axes, 'step [ms], power of ten', 'stiffest joint / softest, power of ten',
                     f'{name}: {len(broken)} of {len(each)} not finite')
     figure.colorbar(shown, ax=panels[-1]).set_label('[rad]; joints stop at 3')
