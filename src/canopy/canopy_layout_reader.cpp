@@ -34,9 +34,10 @@ void readMotion(YamlSection& section, Motion& motion) {
 void readKindKeys(YamlSection& entry, PlantKind& kind) {
   entry.text("name", kind.name);
   entry.text("file", kind.file);
+  const PlantShape before = kind.shape;
   describe(entry, kind);
   if (kind.shape == PlantShape::MESH) entry.text("rigid", kind.rigid);
-  if (kind.shape == PlantShape::TRELLIS) kind.push.stiffness = 0.0;
+  if (kind.shape == PlantShape::TRELLIS && before != kind.shape) kind.push.stiffness = 0.0;
   describe(entry, kind.push);
 }
 

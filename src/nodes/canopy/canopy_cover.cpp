@@ -32,7 +32,8 @@ CellGrid gridOf(const canopy::Layout& layout, double resolution) {
 }  // namespace
 
 CanopyCover::CanopyCover(const canopy::Layout& layout, double resolution) {
-  const CellGrid grid = gridOf(layout, resolution);
+  CellGrid grid = gridOf(layout, resolution);
+  while (grid.columns * grid.rows > MOST_CELLS) grid = gridOf(layout, resolution *= 2.0);
   info_.resolution = static_cast<float>(resolution);
   info_.width = static_cast<std::uint32_t>(grid.columns);
   info_.height = static_cast<std::uint32_t>(grid.rows);
@@ -61,14 +62,6 @@ nav_msgs::OccupancyGrid CanopyCover::cutShare(const canopy::Stubble& stubble) co
         plants_[i] == 0 ? std::int8_t{-1}
                         : static_cast<std::int8_t>((200 * cut[i] + plants_[i]) / (2 * plants_[i])));
   return out;
-}
-
-void CanopyCover::check(const canopy::Layout& layout, double resolution, const std::string& context,
-                        Faults& faults) {
-  const CellGrid grid = gridOf(layout, resolution);
-  if (const double cells = grid.columns * grid.rows; cells > MOST_CELLS)
-    faults.add(context + "cover_resolution = " + std::to_string(resolution) + " m makes " +
-               std::to_string(static_cast<long>(cells)) + " cells, allowed are 4000000");
 }
 
 }  // namespace vegetation_sim

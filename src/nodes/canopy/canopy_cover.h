@@ -14,16 +14,12 @@ namespace vegetation_sim {
 /// A map of the feet of plants for planners (N5).
 class CanopyCover {
  public:
-  /// @param resolution edge of a cell [m], for a map that check() accepts.
+  /// @param resolution edge of a cell [m], doubled until there are at most 4 000 000 cells.
   CanopyCover(const canopy::Layout& layout, double resolution);
 
   /// Returns the share of the plants in each cell that are cut [percent]; -1: no plant but
   /// trellises. Left to the caller: the header. Empty if the layout has no plants.
   nav_msgs::OccupancyGrid cutShare(const canopy::Stubble& stubble) const;
-
-  /// Adds a fault if the map would have too many cells.
-  static void check(const canopy::Layout& layout, double resolution, const std::string& context,
-                    Faults& faults);
 
  private:
   nav_msgs::MapMetaData info_;

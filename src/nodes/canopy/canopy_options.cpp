@@ -3,7 +3,6 @@
 #include "nodes/canopy/canopy_options.h"
 
 #include "canopy/canopy_layout_reader.h"
-#include "nodes/canopy/canopy_cover.h"
 
 #include <map>
 
@@ -148,9 +147,6 @@ CanopyOptions loadCanopyOptions(const ros::NodeHandle& private_handle) {
   describe(parameters, tuning);
   layout.motion = withTuning(layout.motion, tuning);
   if (parameters.faults().empty()) canopy::check(layout, parameters.faults());
-  if (parameters.faults().empty())
-    CanopyCover::check(layout, out.cover_resolution, private_handle.getNamespace() + "/",
-                       parameters.faults());
   parameters.finish();
   out.state_rate = layout.motion.rate;
   return out;

@@ -4,6 +4,7 @@
 
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstring>
@@ -41,10 +42,27 @@ void checkRest(const sensor_msgs::CameraInfo& info, const std::string& context, 
   };
   for (const std::size_t i : {1, 3, 6, 7}) allow("K[" + std::to_string(i) + "]", info.K[i], 0, 0);
   allow("K[8]", info.K[8], 1, 1);
+  // Without distortion nodes take the picture as a rectified one.
+  const bool is_rectified =
+      std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0; });
+  const auto expect = [&](const char* name, std::size_t i, double value, double wanted) {
+    allow(name + ("[" + std::to_string(i) + "]"), value, wanted - 1e-3, wanted + 1e-3);
+  };
   for (std::size_t i = 0; i < info.R.size(); ++i)
-    allow("R[" + std::to_string(i) + "]", info.R[i], -1, 1);
+    if (is_rectified)
+      expect("R", i, info.R[i], i % 4 == 0 ? 1.0 : 0.0);
+    else
+      allow("R[" + std::to_string(i) + "]", info.R[i], -1, 1);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(info.R.data());
+  if (!is_rectified && !((turn * turn.transpose()).isIdentity(1e-3) && turn.determinant() > 0.0))
+    faults.add(context + "R is no rotation");
   for (std::size_t i = 0; i < info.P.size(); ++i)
-    allow("P[" + std::to_string(i) + "]", info.P[i], -1e6, 1e6);
+    if (is_rectified && i % 4 < 3)
+      expect("P", i, info.P[i], info.K[3 * (i / 4) + i % 4]);
+    else if (i == 0 || i == 5)
+      allow("P[" + std::to_string(i) + "]", info.P[i], 1e-3, 1e6);
+    else
+      allow("P[" + std::to_string(i) + "]", info.P[i], -1e6, 1e6);
   allow("binning_x", info.binning_x, 0, 1);
   allow("binning_y", info.binning_y, 0, 1);
   allow("roi.x_offset", info.roi.x_offset, 0, 0);
@@ -86,7 +104,8 @@ sensor_msgs::CameraInfo toMsg(const scan::Lens& lens) {
 scan::Lens fromMsg(const sensor_msgs::CameraInfo& message, const std::string& context) {
   Faults faults;
   if (message.distortion_model != sensor_msgs::distortion_models::PLUMB_BOB)
-    faults.add(context + "distortion_model = '" + message.distortion_model + "' is not plumb_bob");
+    faults.add(context + "distortion_model = '" + message.distortion_model.substr(0, 60) +
+               "' is not plumb_bob");
   if (message.D.size() != 5)
     faults.add(context + "D has " + std::to_string(message.D.size()) + " numbers, allowed are 5");
   faults.throwIfAny();

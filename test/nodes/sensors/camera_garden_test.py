@@ -14,7 +14,7 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, RegionOfInterest
 from sensor_msgs.srv import SetCameraInfo
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -236,6 +236,12 @@ class CameraGarden(unittest.TestCase):
                 ('fx = nan pixel is', dict(K=[nan] + list(before.K[1:]))),
                 ('K[1] = 3 is outside 0 to 0', dict(K=[before.K[0], 3.0] + list(before.K[2:]))),
                 ('P[2] = nan is', dict(P=list(before.P[:2]) + [nan] + list(before.P[3:]))),
+                ('P[0] = -5 is outside', dict(P=[-5.0] + list(before.P[1:]))),
+                ('P[0] = 0 is outside 0.001 to', dict(D=[-0.1] + [0.0] * 4, P=[0.0] * 12)),
+                ('R[0] = 0 is outside 0.999 to 1.001', dict(R=[0.0] * 9)),
+                ('R is no rotation', dict(D=[-0.1] + [0.0] * 4, R=[1.0] * 9)),
+                ('roi.x_offset = 3 is outside 0 to 0', dict(roi=RegionOfInterest(x_offset=3))),
+                ("distortion_model = '" + 60 * 'x' + "' is not", dict(distortion_model=1000 * 'x')),
                 ('binning_x = 2 is outside 0 to 1', dict(binning_x=2)),
                 ('no inverse at pixel', dict(D=[-9.0, 0.0, 0.0, 0.0, 0.0]))):
             with self.subTest(words=words):
@@ -255,6 +261,7 @@ class CameraGarden(unittest.TestCase):
         info = copy.deepcopy(before['info of picture'])
         wanted = copy.deepcopy(info)
         wanted.K = [2 * info.K[0], 0, info.K[2], 0, 2 * info.K[4], info.K[5], 0, 0, 1]
+        wanted.P = [*wanted.K[:3], 0, *wanted.K[3:6], 0, *wanted.K[6:], 0]
         self.assertIn('not saved without camera_info_url',
                       self.camera.calibrate(wanted).status_message)
         after = self.take()
