@@ -95,9 +95,8 @@ class ContactFinder {
  private:
   struct CachedTree {
     std::shared_ptr<const Tree> tree;
-    BrokenBranches broken;  // with which it was grown
-    std::vector<double>
-        reach;  // [branches] from the base of what it bears, however joints bend [m]
+    BrokenBranches broken;      // with which it was grown
+    std::vector<double> reach;  // [branches] of all that each bears, however joints bend [m]
   };
   using Trees = std::map<std::uint32_t, CachedTree>;
   static const CachedTree& update(const ContactScene& scene, std::uint32_t id, CachedTree& cached);

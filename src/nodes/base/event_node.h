@@ -17,7 +17,7 @@
 
 #include "core/config/field_values.h"
 #include "nodes/base/saved_node.h"
-#include "nodes/base/viewer_registry.h"
+#include "nodes/listeners/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
 #include "nodes/shards/shard_check.h"
 #include "ros/conversions/recorded_message.h"

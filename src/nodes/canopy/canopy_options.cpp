@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/canopy/canopy_options.h"
 
-#include "canopy/canopy_layout_reader.h"
-
 #include <map>
 
+#include "canopy/canopy_layout_reader.h"
 #include "core/config/field_values.h"
 #include "nodes/canopy/pushing_bodies.h"
 #include "ros/params/plant_files.h"

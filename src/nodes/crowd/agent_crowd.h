@@ -26,10 +26,10 @@
 #include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd_shard.h"
 #include "nodes/base/event_node.h"
-#include "nodes/base/sensor_registry.h"
 #include "nodes/crowd/border_inbox.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
+#include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/crowd_markers.h"
 #include "ros/replicas/hashed_cache.h"
 

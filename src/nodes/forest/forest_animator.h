@@ -25,12 +25,12 @@
 
 #include "forest/pick.h"
 #include "nodes/base/event_node.h"
-#include "nodes/base/viewer_registry.h"
 #include "nodes/cutters/cutter_follower.h"
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
 #include "nodes/forest/frames/branch_frames.h"
 #include "nodes/forest/grab_manager.h"
+#include "nodes/listeners/viewer_registry.h"
 #include "nodes/markers/forest_markers.h"
 #include "ros/replicas/hashed_cache.h"
 

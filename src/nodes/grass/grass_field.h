@@ -24,11 +24,11 @@
 
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
-#include "nodes/base/sensor_registry.h"
 #include "nodes/cutters/cutter_follower.h"
 #include "nodes/grass/grass_cover.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
+#include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/grass_markers.h"
 #include "vegetation_sim/grass/lod/colour_mask.h"
 

@@ -122,6 +122,9 @@ std::vector<InterestDisc> toMsg(const std::vector<InterestArea>& discs) {
 }
 
 std::vector<InterestArea> fromMsg(const std::vector<InterestDisc>& discs) {
+  if (discs.size() > MOST_DISCS)
+    throw InvalidInput("discs has " + std::to_string(discs.size()) + " entries, allowed are " +
+                       std::to_string(MOST_DISCS));
   std::vector<InterestArea> out;
   Faults faults;
   for (std::size_t i = 0; i < discs.size(); ++i) {

@@ -27,8 +27,10 @@ crowd::Walker fromMsg(const AgentState& message);
 /// Checks received walkers. @throws InvalidInput with all faults, each with id, value and range.
 void check(const std::vector<AgentState>& agents);
 
+/// Limit of the discs of a message: a node has up to 32 viewers and 32 sensors.
+constexpr std::size_t MOST_DISCS = 64;
 /// Converts the discs of NearAgents and NearGrass, and back. @throws InvalidInput for impossible
-/// ones.
+/// ones, and too many.
 std::vector<InterestDisc> toMsg(const std::vector<InterestArea>& discs);
 std::vector<InterestArea> fromMsg(const std::vector<InterestDisc>& discs);
 

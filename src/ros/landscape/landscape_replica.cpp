@@ -121,29 +121,23 @@ std::vector<scan::CrownSource> LandscapeReplica::crownsOf(const scan::Trees& tre
 }
 
 void LandscapeReplica::chooseTracks(const Vec3& centre, double radius, Nanoseconds stamp) {
-  const bool is_near =
-      near_meadow_.covers(centre, radius, stamp) && near_meadow_.stamp() >= meadow_.stamp();
-  const bool is_whole = near_meadow_.stamp() <= meadow_.stamp();
-  tracks_.choose(is_near, is_whole, stamp);
-  reads_near_meadow_ = near_meadow_.ready() && (is_near || !is_whole);
+  tracks_.choose(near_meadow_.covers(centre, radius, stamp), near_meadow_.stamp(), meadow_.stamp(),
+                 stamp);
   incomplete_ += !tracks_.isComplete();
   meadow_.listen(tracks_.needsWhole(stamp));
 }
 
 // Without a publisher of the people near sensors, as in recordings, all people are received.
 void LandscapeReplica::choosePeople(const Vec3& centre, double radius, Nanoseconds stamp) {
-  const bool is_near =
-      near_crowd_.covers(centre, radius, stamp) && near_crowd_.stamp() >= crowd_.stamp();
-  const bool is_whole = near_crowd_.stamp() <= crowd_.stamp();
-  people_.choose(is_near, is_whole, stamp);
-  reads_near_crowd_ = is_near || !is_whole;
+  people_.choose(near_crowd_.covers(centre, radius, stamp), near_crowd_.stamp(), crowd_.stamp(),
+                 stamp);
   incomplete_ += !people_.isComplete();
   crowd_.listen(people_.needsWhole(stamp));
 }
 
 // A sweep lies between two ticks of the crowd.
 std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) const {
-  const Nanoseconds seen = reads_near_crowd_ ? near_crowd_.stamp() : crowd_.stamp();
+  const Nanoseconds seen = people_.isNear() ? near_crowd_.stamp() : crowd_.stamp();
   const double since = std::clamp(secondsBetween(seen, stamp), 0.0, LONGEST_EXTRAPOLATION);
   const auto terrain = ground();
   std::vector<scan::People::Person> out;

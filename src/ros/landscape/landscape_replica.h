@@ -48,11 +48,12 @@ class LandscapeReplica {
  private:
   std::shared_ptr<const terrain::HeightMap> ground() const;
   std::vector<scan::CrownSource> crownsOf(const scan::Trees& trees, Nanoseconds stamp) const;
-  const SubscribedMeadow& tracks() const { return reads_near_meadow_ ? near_meadow_ : meadow_; }
+  const SubscribedMeadow& tracks() const { return readsNearMeadow() ? near_meadow_ : meadow_; }
+  bool readsNearMeadow() const { return tracks_.isNear() && near_meadow_.ready(); }
   void chooseTracks(const Vec3& centre, double radius, Nanoseconds stamp);
   void choosePeople(const Vec3& centre, double radius, Nanoseconds stamp);
   const std::vector<WalkerView>& nearest() const {
-    return reads_near_crowd_ ? near_crowd_.people() : crowd_.people();
+    return people_.isNear() ? near_crowd_.people() : crowd_.people();
   }
   std::vector<scan::People::Person> peopleAt(Nanoseconds stamp) const;
 
@@ -62,7 +63,6 @@ class LandscapeReplica {
   SubscribedCrowd crowd_;
   NearCrowd near_crowd_;
   NearChoice people_, tracks_;
-  bool reads_near_crowd_{false}, reads_near_meadow_{false};
   std::uint64_t incomplete_{0};
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "vegetation_sim/core/math/time.h"
@@ -15,14 +14,17 @@ class NearChoice {
  public:
   static constexpr double SETTLED = 1.0;  ///< [s]
 
-  /// @param is_near whether the near input has all that is asked for.
-  /// @param is_whole whether the whole one is up to date. @return whether to use the near one.
-  bool choose(bool is_near, bool is_whole, Nanoseconds stamp) {
-    is_complete_ = is_near || is_whole;
-    if (!is_near || !uncovered_) uncovered_ = stamp;
-    return is_near;
+  /// @param covers whether the near input has all that is asked for, as of its stamp `near`.
+  /// @param whole stamp of the other input.
+  void choose(bool covers, Nanoseconds near, Nanoseconds whole, Nanoseconds stamp) {
+    const bool has_all = covers && near >= whole, is_whole = near <= whole;
+    is_near_ = has_all || !is_whole;
+    is_complete_ = has_all || is_whole;
+    if (!has_all || !uncovered_) uncovered_ = stamp;
   }
-  /// Whether the last choice had all that was asked for.
+  /// Whether the near input was chosen.
+  bool isNear() const { return is_near_; }
+  /// Whether the chosen input had all that was asked for.
   bool isComplete() const { return is_complete_; }
   /// Whether the whole input is to be received.
   bool needsWhole(Nanoseconds stamp) const {
@@ -32,7 +34,7 @@ class NearChoice {
 
  private:
   std::optional<Nanoseconds> uncovered_;  // the last stamp at which the near input lacked something
-  bool is_complete_{true};
+  bool is_near_{false}, is_complete_{true};
 };
 
 }  // namespace vegetation_sim

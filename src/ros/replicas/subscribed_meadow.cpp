@@ -32,7 +32,7 @@ void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
         [this](const boost::shared_ptr<const NearGrass>& message) {
           if (!options_.delayed)
             apply(*message);
-          else if (accepts(message->state))
+          else if (accepts(*message))
             delayed_near_.add(fromMsg(message->state.header.stamp), message);
         };
     near_subscriber_ = handle.subscribe<NearGrass>(topics.near, 100, callback);
@@ -107,6 +107,15 @@ bool SubscribedMeadow::accepts(const GrassState& message) {
     fromMsg(message);
     return state_status_;
   });
+}
+
+bool SubscribedMeadow::accepts(const NearGrass& message) {
+  return receive("grass/near", state_status_,
+                 [&] {
+                   fromMsg(message.discs);
+                   return state_status_;
+                 }) &&
+         accepts(message.state);
 }
 
 void SubscribedMeadow::apply(const GrassState& message) {

@@ -48,6 +48,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   void apply(const GrassState& message) override;
   bool accepts(const GrassState& message) override;
   void apply(const NearGrass& message);
+  bool accepts(const NearGrass& message);
   /// Applies the delayed states of both topics with stamps up to `stamp`.
   void advance(Nanoseconds stamp);
   /// Begins or ends to receive the state of the whole meadow.

@@ -11,10 +11,10 @@ import rostest
 from vegetation_sim.msg import AgentStates, CrowdView, NearAgents, ScanReport
 
 from crowd_rig import Crowd
-from forest_rig import RATE, TickClock, ViewerClient, start_node, stop, time_of
-from scan_rig import Mast, Scanner
+from forest_rig import RATE, TickClock, ViewerClient, time_of
+from scan_rig import LidarPair
 from waiting import wait_for
-from watched_node import Log, listens, wait_for_readers
+from watched_node import Log
 
 HERE, THERE = range(20), range(20, 40)  # ids of the two groups, at x = 0 and x = 500
 LIDAR = dict(rate=10, delay=0.1, noise=0.0, rings=12, columns=240, elevation_low=-0.3, elevation_high=0.3,
@@ -64,44 +64,24 @@ class CrowdInterest(unittest.TestCase):
         eye.close()
 
     def test_3_lidars_measure_the_same_with_those_near_them(self):
-        # The second lidar finds no publisher of the people near sensors, so it receives all.
-        processes = [start_node('vegetation_scanner', '/some/vegetation_scanner',
-                                {'agents': '/agents', 'agents/near': '/agents/near', 'agents/motions': '/agents/motions',
-                                 'forest/sensors': '/forest/sensors'}, **LIDAR),
-                     start_node('vegetation_scanner', '/all/vegetation_scanner',
-                                {'agents': '/agents', 'agents/motions': '/agents/motions'}, **LIDAR)]
-        self.addCleanup(lambda: [stop(process) for process in processes])
-        scanners = [Scanner('/%s/vegetation_scanner' % name, '/%s/' % name) for name in ('some', 'all')]
-        scanners[0].wait_until_up('/agents', '/agents/near')
-        scanners[1].wait_until_up('/agents')
-        mast = Mast(scanners[0])
-        wait_for_readers('/tf', '/all/vegetation_scanner')
+        lidars = LidarPair('agents', 'agents/near', ['agents/motions'], **LIDAR)
+        self.addCleanup(lidars.close)
         base = 0.0
-        for step in range(150):
-            if step == 60:
-                self.assertFalse(listens('/some/vegetation_scanner', '/agents'))
+        for sweep in range(150):
+            if sweep == 60:
+                self.assertFalse(lidars.jump(self.clock))
                 self.assertEqual({agent.id for agent in self.near.messages[-1].agents}, set(HERE))
-                base, jump = 500.0, time_of(self.clock.tick)
-            stamp = time_of(self.clock.tick + 3)
-            mast.put(base + WAY * math.sin(0.04 * step), 3.0, 1.0, stamp)
-            wait_for(lambda: scanners[1].has_transform('lidar', stamp), 'lidar')
-            for _ in range(3):
-                self.run_ticks(1)
-                for scanner in scanners:
-                    scanner.settle()
+                base = 500.0
+            lidars.move((base + WAY * math.sin(0.04 * sweep), 3.0, 1.0), self.clock, lambda: self.run_ticks(1))
         near = self.near.messages[-1]
         self.assertEqual({agent.id for agent in near.agents}, set(THERE))
         self.assertEqual(near.hash, self.crowd.state.messages[-1].hash)
-        clouds = [{m.header.stamp: bytes(m.data) for m in scanner.points.messages} for scanner in scanners]
-        sweeps = sorted(set(clouds[0]) & set(clouds[1]))
-        # After a jump, people come with the announcement.
-        steady = [s for s in sweeps if s < jump or s > jump + rospy.Duration(0.5)]
-        self.assertGreater(len(steady), 130)
-        self.assertEqual([s for s in steady if clouds[0][s] != clouds[1][s]], [])
-        hits = [m.counts[ScanReport.PERSON] for m in scanners[0].report.messages]
+        compared, unequal = lidars.compare()
+        self.assertGreater(len(compared), 130)
+        self.assertEqual(unequal, [])
+        hits = [m.counts[ScanReport.PERSON] for m in lidars.scanners[0].report.messages]
         self.assertGreater(min(hits[:50]), 5)
         self.assertGreater(min(hits[-50:]), 5)
-        print('%d of %d sweeps are compared and equal' % (len(steady), len(sweeps)))
 
     def test_4_the_people_do_not_depend_on_listeners(self):
         watched = self.crowd.hashes()

@@ -10,11 +10,11 @@ import rospy
 import rostest
 from vegetation_sim.msg import NearGrass, ScanReport
 
-from forest_rig import TickClock, ViewerClient, start_node, stop
+from forest_rig import TickClock, ViewerClient
 from grass_rig import RATE, SIDE, Feet, Meadow, nodes_of, step, time_of
-from scan_rig import Mast, Scanner
+from scan_rig import LidarPair
 from waiting import wait_for
-from watched_node import Log, listens, wait_for_readers
+from watched_node import Log
 
 ORIGIN = -60.0  # of the meadow along x [m]
 THERE = 500.0  # place of one of two walkers along x; the other is at 0
@@ -98,38 +98,19 @@ class GrassInterest(unittest.TestCase):
         eye.close()
 
     def test_3_lidars_measure_the_same_with_tracks_near_them(self):
-        # The second lidar finds no publisher of the tracks near it, so it receives all.
-        topics = {name: '/' + name for name in ('grass/layout', 'grass/state', 'grass/near', 'forest/sensors')}
-        others = {name: '/' + name for name in ('grass/layout', 'grass/state')}
-        processes = [start_node('vegetation_scanner', '/some/vegetation_scanner', topics, **LIDAR),
-                     start_node('vegetation_scanner', '/all/vegetation_scanner', others, **LIDAR)]
-        self.addCleanup(lambda: [stop(process) for process in processes])
-        scanners = [Scanner('/%s/vegetation_scanner' % name, '/%s/' % name) for name in ('some', 'all')]
-        scanners[0].wait_until_up('/grass/state', '/grass/near')
-        scanners[1].wait_until_up('/grass/state')
-        mast = Mast(scanners[0])
-        wait_for_readers('/tf', '/all/vegetation_scanner')
+        lidars = LidarPair('grass/state', 'grass/near', ['grass/layout'], **LIDAR)
+        self.addCleanup(lidars.close)
         base = 0.0
         for sweep in range(120):
             if sweep == 60:
-                self.assertFalse(listens('/some/vegetation_scanner', '/grass/state'))
+                self.assertFalse(lidars.jump(self.clock))
                 self.assertEqual(walked_on(self.part.nodes, self.spacing), (True, False))
-                base, jump = THERE, time_of(self.clock.tick)
-            stamp = time_of(self.clock.tick + 3)
-            mast.put(base + WAY * math.sin(0.04 * sweep), 0.0, 1.2, stamp)
-            wait_for(lambda: scanners[1].has_transform('lidar', stamp), 'lidar')
-            for _ in range(3):
-                self.run_ticks(1)
-                for scanner in scanners:
-                    scanner.settle()
-        clouds = [{m.header.stamp: bytes(m.data) for m in scanner.points.messages} for scanner in scanners]
-        sweeps = sorted(set(clouds[0]) & set(clouds[1]))
-        # After a jump, tracks come with the announcement.
-        steady = [s for s in sweeps if s < jump or s > jump + rospy.Duration(0.5)]
-        self.assertGreater(len(steady), 100)
-        self.assertEqual([s for s in steady if clouds[0][s] != clouds[1][s]], [])
-        self.assertGreater(scanners[0].report.messages[-1].counts[ScanReport.GRASS], 300)
-        print('%d of %d sweeps are compared and equal' % (len(steady), len(sweeps)))
+                base = THERE
+            lidars.move((base + WAY * math.sin(0.04 * sweep), 0.0, 1.2), self.clock, lambda: self.run_ticks(1))
+        compared, unequal = lidars.compare()
+        self.assertGreater(len(compared), 100)
+        self.assertEqual(unequal, [])
+        self.assertGreater(lidars.scanners[0].report.messages[-1].counts[ScanReport.GRASS], 300)
 
     def test_4_the_ground_does_not_depend_on_listeners(self):
         self.run_ticks(3 * RATE)

@@ -4,6 +4,7 @@
 import math
 
 import numpy
+import rospy
 import yaml
 from numpy.lib.recfunctions import repack_fields
 from geometry_msgs.msg import TransformStamped
@@ -12,9 +13,9 @@ from tf2_msgs.msg import TFMessage
 from tf2_msgs.srv import FrameGraph
 from vegetation_sim.msg import ScanReport
 
-from forest_rig import time_of
+from forest_rig import start_node, stop, time_of
 from waiting import wait_for
-from watched_node import Log, WatchedNode, publisher, wait_for_readers
+from watched_node import Log, WatchedNode, listens, publisher, wait_for_readers
 
 TYPES = {PointField.FLOAT32: 'f4', PointField.UINT8: 'u1', PointField.UINT16: 'u2', PointField.UINT32: 'u4',
          PointField.INT32: 'i4'}
@@ -35,13 +36,6 @@ class Scanner(WatchedNode):
     def has_frame(self, frame):
         """Returns whether the node's tf buffer has the frame."""
         return frame in (yaml.safe_load(self._probe().frame_yaml) or {})
-
-    def has_transform(self, frame, stamp):
-        """Returns whether the newest transform of a frame in the node's tf buffer has this stamp,
-        to 2 ms."""
-        frames = yaml.safe_load(self._probe().frame_yaml) or {}
-        newest = frames.get(frame, {}).get('most_recent_transform', 0.0)
-        return abs(newest - stamp.to_sec()) < 2e-3
 
 
 def cloud_of(message):
@@ -73,3 +67,51 @@ class Mast:
         frame.transform.rotation.z, frame.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         self._publisher.publish(TFMessage([frame]))
         wait_for(lambda: self.scanner.has_transform(self.frame, stamp), self.frame)
+
+
+class LidarPair:
+    """Two lidars on one mast. The first receives what is near it on the topic `near`. The second
+    finds no publisher of that, so it receives the whole."""
+
+    SETTLING = rospy.Duration(0.5)  # after a jump, until what is near there comes
+
+    def __init__(self, whole, near, others, **lidar):
+        """whole, near, others: names of topics."""
+        topics = {name: '/' + name for name in (whole, *others)}
+        near_topics = {name: '/' + name for name in (near, 'forest/sensors')}
+        self._processes = [start_node('vegetation_scanner', '/near/vegetation_scanner', {**topics, **near_topics},
+                                      **lidar),
+                           start_node('vegetation_scanner', '/whole/vegetation_scanner', topics, **lidar)]
+        self._whole, self._jumps = '/' + whole, []
+        self.scanners = [Scanner('/%s/vegetation_scanner' % name, '/%s/' % name) for name in ('near', 'whole')]
+        self.scanners[0].wait_until_up('/' + whole, '/' + near)
+        self.scanners[1].wait_until_up('/' + whole)
+        self._mast = Mast(self.scanners[0])
+        wait_for_readers('/tf', self.scanners[1].process)
+
+    def move(self, place, clock, run_tick):
+        """Puts the mast at a place, and runs the three ticks of a sweep there."""
+        stamp = time_of(clock.tick + 3)
+        self._mast.put(*place, stamp)
+        wait_for(lambda: self.scanners[1].has_transform('lidar', stamp), 'lidar')
+        for _ in range(3):
+            run_tick()
+            for scanner in self.scanners:
+                scanner.settle()
+
+    def jump(self, clock):
+        """To be called before the mast jumps. Returns whether the first lidar receives the whole."""
+        self._jumps.append(time_of(clock.tick))
+        return listens(self.scanners[0].process, self._whole)
+
+    def compare(self):
+        """Returns the stamps of the sweeps that are compared, and of those that are not equal."""
+        clouds = [{m.header.stamp: bytes(m.data) for m in scanner.points.messages} for scanner in self.scanners]
+        both = sorted(set(clouds[0]) & set(clouds[1]))
+        compared = [s for s in both if not any(j <= s <= j + self.SETTLING for j in self._jumps)]
+        print('%d of %d sweeps are compared' % (len(compared), len(both)))
+        return compared, [s for s in compared if clouds[0][s] != clouds[1][s]]
+
+    def close(self):
+        for process in self._processes:
+            stop(process)

@@ -179,16 +179,17 @@ class WatchedNode:
         for _ in range(2):
             self._probe() if self._begun else early()
 
+    def has_transform(self, frame, stamp):
+        """Returns whether the newest transform of a frame in the node's tf buffer has this stamp,
+        to 2 ms."""
+        frames = rospy.ServiceProxy(self.process + '/tf2_frames', FrameGraph)().frame_yaml
+        newest = (yaml.safe_load(frames) or {}).get(frame, {}).get('most_recent_transform', 0.0)
+        return abs(newest - stamp.to_sec()) < 2e-3
+
     def settle_frames(self, transforms):
         """Returns when the node, a thread of which reads tf, has these transforms and all messages."""
-        graph = rospy.ServiceProxy(self.process + '/tf2_frames', FrameGraph)
-
-        def has_all():
-            known = yaml.safe_load(graph().frame_yaml) or {}
-            return all(t.child_frame_id in known and
-                       known[t.child_frame_id]['most_recent_transform'] > t.header.stamp.to_sec() - 1e-3
-                       for t in transforms)
-        wait_for(has_all, [t.child_frame_id for t in transforms])
+        for t in transforms:
+            wait_for(lambda t=t: self.has_transform(t.child_frame_id, t.header.stamp), t.child_frame_id)
         self.settle()
 
     def diagnostics(self, part=None):

@@ -11,7 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import AgentSpawn, AgentState, InterestDisc, NearAgents, ScanReport, TreadLaw, WindPrimitive
+from vegetation_sim.msg import AgentSpawn, AgentState, InterestDisc, NearAgents, NearGrass, ScanReport, TreadLaw, WindPrimitive
 from vegetation_sim.srv import RemoveWindPrimitive, SetWindPrimitive
 
 from crowd_rig import Crowd
@@ -169,6 +169,15 @@ class ScanClearing(unittest.TestCase):
             self.scanner.settle()
         wait_for(lambda: self.scanner.diagnostics()['Inputs refused'] == before + 4, 'refusals')
         people.unregister()
+        tracks = publisher('/grass/near', NearGrass)
+        wait_for_readers('/grass/near', self.scanner.process)
+        for discs in ([InterestDisc(radius=-1.0)], [InterestDisc(radius=1.0)] * 65):
+            message = NearGrass(discs=discs)
+            message.state.header.frame_id = 'map'
+            tracks.publish(message)
+            self.scanner.settle()
+        wait_for(lambda: self.scanner.diagnostics()['Inputs refused'] == before + 6, 'refusals')
+        tracks.unregister()
         self.assertGreater((self.sweep()['label'] == ScanReport.PERSON).sum(), 0)
 
     def test_7_time_that_goes_back_is_a_fresh_start(self):

@@ -100,6 +100,8 @@ TEST(CrowdConversions, DiscsAreReadAsTheyWereWritten) {
   EXPECT_NE(errorOf([&] { fromMsg(bad); }).find("discs[1].radius = -1 m is outside 0 to 2e+09 m"),
             std::string::npos)
       << errorOf([&] { fromMsg(bad); });
+  EXPECT_EQ(errorOf([&] { fromMsg(std::vector<InterestDisc>(65)); }),
+            "discs has 65 entries, allowed are 64");
 }
 
 TEST(CrowdConversions, AGoalWithoutItsFlagIsRejectedByName) {

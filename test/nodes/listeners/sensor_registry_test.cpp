@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/sensor_registry.h"
+#include "nodes/listeners/sensor_registry.h"
 
 #include <gtest/gtest.h>
 

@@ -5,13 +5,12 @@
 #include <tf2_ros/buffer.h>
 #include <vegetation_sim/SensorInterest.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/lod/interest_regions.h"
+#include "nodes/listeners/announcements.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
-#include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
@@ -21,8 +20,7 @@ std::vector<InterestArea> discsOf(const std::vector<Viewpoint>& viewers, double 
 /// The sensors that have announced themselves, for nodes whose state does not depend on them.
 class SensorRegistry {
  public:
-  static constexpr std::size_t MOST = 32;
-  static constexpr double LIFE = 3.0;  ///< of a sensor without messages [s]
+  static constexpr std::size_t MOST = Announcements<InterestArea>::MOST;
   /// How far a sensor moves until its next message is heard, and people and plants reach beyond
   /// their place [m].
   static constexpr double REACH = 10.0;
@@ -31,17 +29,13 @@ class SensorRegistry {
   /// sensor, an unknown frame, or more than MOST sensors.
   void hear(const SensorInterest& message, const tf2_ros::Buffer& buffer,
             const std::string& frame_id, Nanoseconds stamp);
-  /// Returns what the sensors meet, in order of ids. Forgets sensors without messages for LIFE.
-  std::vector<InterestArea> discsAt(Nanoseconds stamp);
-  std::size_t size() const { return announced_.size(); }
-  void clear() { announced_.clear(); }
+  /// Returns what the sensors meet, in order of ids, without silent sensors.
+  std::vector<InterestArea> discsAt(Nanoseconds stamp) { return discs_.at(stamp); }
+  std::size_t size() const { return discs_.size(); }
+  void clear() { discs_.clear(); }
 
  private:
-  struct Announced {
-    InterestArea disc;
-    Nanoseconds stamp{0};
-  };
-  std::map<std::string, Announced> announced_;
+  Announcements<InterestArea> discs_;
 };
 
 }  // namespace vegetation_sim

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/base/sensor_registry.h"
+#include "nodes/listeners/sensor_registry.h"
 
 #include "ros/services/requests.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
@@ -23,24 +23,7 @@ void SensorRegistry::hear(const SensorInterest& message, const tf2_ros::Buffer& 
   Vec3 place = sensor.position;
   if (!frame.empty() && frame != frame_id)
     place = transformed(poseInWorld(buffer, frame_id, frame), place);
-  if (announced_.size() >= MOST && !announced_.count(sensor.id))
-    throw InvalidInput("sensor '" + sensor.id + "' is one more than the " + std::to_string(MOST) +
-                       " allowed at once");
-  announced_[sensor.id] = {{place.x(), place.y(), sensor.range + REACH}, stamp};
-}
-
-std::vector<InterestArea> SensorRegistry::discsAt(Nanoseconds stamp) {
-  std::vector<InterestArea> out;
-  for (auto entry = announced_.begin(); entry != announced_.end();) {
-    if (entry->second.stamp == 0) entry->second.stamp = stamp;  // heard before the first tick
-    if (secondsBetween(entry->second.stamp, stamp) > LIFE) {
-      entry = announced_.erase(entry);
-      continue;
-    }
-    out.push_back(entry->second.disc);
-    ++entry;
-  }
-  return out;
+  discs_.put("sensor", sensor.id, {place.x(), place.y(), sensor.range + REACH}, stamp);
 }
 
 }  // namespace vegetation_sim
