@@ -20,6 +20,7 @@
 #include "nodes/shards/shard_merges.h"
 #include "nodes/shards/shard_requests.h"
 #include "ros/services/diagnostics.h"
+#include "ros/services/subscriptions.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/core/math/time.h"
 
@@ -43,7 +44,7 @@ class NodeBase {
                                                            callback](const Message& message) {
       acceptInput(topic, [&] { (static_cast<Node*>(this)->*callback)(message); });
     };
-    subscribers_.push_back(handle_.subscribe<Message>(topic, queue, guarded));
+    subscribers_.push_back(subscribeWithoutDelay<Message>(handle_, topic, queue, guarded));
   }
   /// Subscribes to a topic that one node owns; diagnose with warnOfRivals().
   template <class Node, class Message>

@@ -3,7 +3,8 @@
 #include "nodes/crowd/border_inbox.h"
 
 #include <ros/time.h>
-#include <ros/transport_hints.h>
+
+#include "ros/services/subscriptions.h"
 
 namespace vegetation_sim {
 namespace {
@@ -19,9 +20,7 @@ BorderInbox::BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait
   const boost::function<void(const CrowdBorder&)> callback = [this](const CrowdBorder& message) {
     borders_.add(message);
   };
-  subscriber_ =
-      handle.subscribe<CrowdBorder>("agents/border", BORDER_QUEUE, callback, ros::VoidConstPtr(),
-                                    ros::TransportHints().tcpNoDelay());
+  subscriber_ = subscribeWithoutDelay<CrowdBorder>(handle, "agents/border", BORDER_QUEUE, callback);
 }
 
 std::vector<CrowdBorder> BorderInbox::take(Nanoseconds before, Nanoseconds now) {

@@ -7,6 +7,7 @@
 
 #include "ros/conversions/crowd_conversions.h"
 #include "ros/params/resources.h"
+#include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
@@ -35,7 +36,7 @@ void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
           else if (accepts(*message))
             delayed_near_.add(fromMsg(message->state.header.stamp), message);
         };
-    near_subscriber_ = handle.subscribe<NearGrass>(topics.near, 100, callback);
+    near_subscriber_ = subscribeWithoutDelay<NearGrass>(handle, topics.near, 100, callback);
   }
   if (topics.state.empty()) return;
   subscribe_state_ = [this, handle, topic = topics.state]() mutable {

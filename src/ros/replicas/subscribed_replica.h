@@ -14,6 +14,7 @@
 #include "ros/replicas/input_status.h"
 #include "ros/services/requests.h"
 #include "ros/services/rivals.h"
+#include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -85,7 +86,7 @@ class SubscribedReplica {
           else if (accepts(*message))
             delayed_.add(fromMsg(message->header.stamp), message);
         };
-    subscribers_.push_back(handle.subscribe<State>(topic, queue, callback));
+    subscribers_.push_back(subscribeWithoutDelay<State>(handle, topic, queue, callback));
   }
   void forgetDelayed(Nanoseconds now) { delayed_.forgetLater(now); }
 

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -24,7 +25,7 @@ FrameListener::FrameListener(tf2_ros::Buffer& buffer, ros::NodeHandle handle)
   const boost::function<void(const Arrival&)> fixed = [this](const Arrival& arrival) {
     add(arrival, true);
   };
-  moving_ = handle_.subscribe<tf2_msgs::TFMessage>("/tf", FRAMES_QUEUE, moving);
+  moving_ = subscribeWithoutDelay<tf2_msgs::TFMessage>(handle_, "/tf", FRAMES_QUEUE, moving);
   fixed_ = handle_.subscribe<tf2_msgs::TFMessage>("/tf_static", FRAMES_QUEUE, fixed);
   buffer_.setUsingDedicatedThread(true);
   spinner_.start();

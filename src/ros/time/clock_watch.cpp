@@ -20,7 +20,9 @@ ClockWatch::ClockWatch(ros::NodeHandle nh, std::function<void(Nanoseconds)> begi
   if (ros::Time::isSimTime()) {
     const boost::function<void(const rosgraph_msgs::Clock&)> heard =
         [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
-    clock_ = nh.subscribe<rosgraph_msgs::Clock>("/clock", WATCHED_CLOCK_QUEUE, heard);
+    clock_ =
+        nh.subscribe<rosgraph_msgs::Clock>("/clock", WATCHED_CLOCK_QUEUE, heard,
+                                           ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     return;
   }
   poll_ = nh.createWallTimer(ros::WallDuration(POLL_PERIOD), [this](const ros::WallTimerEvent&) {

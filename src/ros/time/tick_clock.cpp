@@ -27,7 +27,8 @@ void TickClock::listen(ros::NodeHandle handle) {
     const boost::function<void(const rosgraph_msgs::Clock&)> heard =
         [this](const rosgraph_msgs::Clock& message) { see(fromMsg(message.clock)); };
     const unsigned queue = late_ == LateTicks::EACH ? TICK_CLOCK_QUEUE : 1;
-    clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", queue, heard);
+    clock_ = handle.subscribe<rosgraph_msgs::Clock>("/clock", queue, heard, ros::VoidConstPtr(),
+                                                    ros::TransportHints().tcpNoDelay());
   } else {
     timer_ = handle.createTimer(ros::Duration(1.0 / (LOOKS_PER_TICK * grid_.rate())),
                                 [this](const ros::TimerEvent&) { see(fromMsg(ros::Time::now())); });

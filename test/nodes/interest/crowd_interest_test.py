@@ -64,15 +64,19 @@ class CrowdInterest(unittest.TestCase):
         eye.close()
 
     def test_3_lidars_measure_the_same_with_those_near_them(self):
-        lidars = LidarPair('agents', 'agents/near', ['agents/motions'], **LIDAR)
+        lidars = LidarPair('/agent_crowd', 'agents', 'agents/near', ['agents/motions'], **LIDAR)
         self.addCleanup(lidars.close)
         base = 0.0
+
+        def place(sweep):
+            return (base + WAY * math.sin(0.04 * sweep), 3.0, 1.0)
+
         for sweep in range(150):
             if sweep == 60:
-                self.assertFalse(lidars.jump(self.clock))
+                lidars.leave_whole(place(sweep), self.clock, lambda: self.run_ticks(1))
                 self.assertEqual({agent.id for agent in self.near.messages[-1].agents}, set(HERE))
                 base = 500.0
-            lidars.move((base + WAY * math.sin(0.04 * sweep), 3.0, 1.0), self.clock, lambda: self.run_ticks(1))
+            lidars.move(place(sweep), self.clock, lambda: self.run_ticks(1))
         near = self.near.messages[-1]
         self.assertEqual({agent.id for agent in near.agents}, set(THERE))
         self.assertEqual(near.hash, self.crowd.state.messages[-1].hash)

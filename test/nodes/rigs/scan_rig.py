@@ -75,8 +75,8 @@ class LidarPair:
 
     SETTLING = rospy.Duration(0.5)  # after a jump, until what is near there comes
 
-    def __init__(self, whole, near, others, **lidar):
-        """whole, near, others: names of topics."""
+    def __init__(self, source, whole, near, others, **lidar):
+        """source: the node that publishes what is near. whole, near, others: names of topics."""
         topics = {name: '/' + name for name in (whole, *others)}
         near_topics = {name: '/' + name for name in (near, 'forest/sensors')}
         self._processes = [start_node('vegetation_scanner', '/near/vegetation_scanner', {**topics, **near_topics},
@@ -86,6 +86,8 @@ class LidarPair:
         self.scanners = [Scanner('/%s/vegetation_scanner' % name, '/%s/' % name) for name in ('near', 'whole')]
         self.scanners[0].wait_until_up('/' + whole, '/' + near)
         self.scanners[1].wait_until_up('/' + whole)
+        # The first announcement is sent after a sweep, and the source finds the sensor by itself.
+        wait_for(lambda: listens(source, '/forest/sensors'), source + ' to listen to sensors')
         self._mast = Mast(self.scanners[0])
         wait_for_readers('/tf', self.scanners[1].process)
 
@@ -99,10 +101,16 @@ class LidarPair:
             for scanner in self.scanners:
                 scanner.settle()
 
-    def jump(self, clock):
-        """To be called before the mast jumps. Returns whether the first lidar receives the whole."""
+    def leave_whole(self, place, clock, run_tick):
+        """Sweeps at a place until the first lidar no longer receives the whole. The mast may jump
+        after that."""
+        for _ in range(100):
+            self.move(place, clock, run_tick)
+            if not listens(self.scanners[0].process, self._whole):
+                break
+        else:
+            raise AssertionError('the lidar receives %s after 100 sweeps beside it' % self._whole)
         self._jumps.append(time_of(clock.tick))
-        return listens(self.scanners[0].process, self._whole)
 
     def compare(self):
         """Returns the stamps of the sweeps that are compared, and of those that are not equal."""
