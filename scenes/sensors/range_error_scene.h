@@ -22,7 +22,7 @@ namespace vegetation_sim::scan {
 struct RangeLidar {
   Vec3 place{Vec3::Zero()};
   double range{30.0};      ///< [m]
-  double tolerance{0.05};  ///< [m]
+  double tolerance{0.01};  ///< [m]
   Beams beams;
 };
 

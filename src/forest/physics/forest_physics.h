@@ -187,6 +187,7 @@ class ForestPhysics {
   std::uint64_t grown_to_cut_{0};
   BrokenTrees broken_;
   std::vector<Break> breaks_;  // of the last tick
+  std::size_t unbroken_{0};    // at the last tick
   std::vector<Reaction> reactions_;
   std::map<std::uint32_t, PromotedTree> before_;
   std::uint32_t next_grab_{1};

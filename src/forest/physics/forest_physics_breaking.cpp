@@ -44,8 +44,12 @@ void ForestPhysics::breakOverloaded(const StepContext& context, Nanoseconds to) 
     }
     if (breaks) all.push_back(most);
   }
+  unbroken_ = 0;
   for (const Overload& overload : all) {
-    if (countBroken(broken_) + cuts_.size() >= MOST_BROKEN) return;
+    if (countBroken(broken_) + cuts_.size() >= MOST_BROKEN) {
+      ++unbroken_;
+      continue;
+    }
     const PhysicalSubtree& subtree = subtrees_.at(overload.tree);
     Break out;
     out.piece = pieceOf(context, overload.tree, overload.link, to);

@@ -69,6 +69,7 @@ PhysicsFigures ForestPhysics::figures() const {
   out.skipped = skipped_;
   out.coarse = coarse_;
   out.broken = countBroken(broken_);
+  out.unbroken = unbroken_;
   for (const SubtreeScratch& scratch : scratches_) out.replaced += scratch.replaced;
   for (const Reaction& reaction : reactions_) out.capped_forces += reaction.limited ? 1 : 0;
   return out;

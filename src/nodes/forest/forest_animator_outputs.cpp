@@ -156,6 +156,10 @@ void ForestAnimator::addPhysics(Status& status) {
   status.add("Physical branches that blend back", figures.blending);
   status.add("Branches kept procedural by the cap", figures.refused);
   status.add("Branches that have come off", figures.broken);
+  status.add("Trees with overloaded wood that stays", figures.unbroken);
+  warnOfMore(status, figures.unbroken, 0,
+             "trees keep overloaded wood, since " + std::to_string(forest::MOST_BROKEN) +
+                 " branches have come off");
   status.add("Physics memory [B]", figures.bytes);
   status.add("Physics steps of the last tick", figures.steps);
   status.add("Gaps in time not stepped through", figures.skipped);

@@ -105,6 +105,7 @@ struct PhysicsFigures {
   std::size_t coarse{0};    ///< tree steps whose contacts needed more bisections than allowed
   std::size_t skipped{0};   ///< gaps in time that were not stepped through
   std::size_t broken{0};    ///< branches that have come off
+  std::size_t unbroken{0};  ///< trees whose overloaded wood stays, since too many have come off
 };
 
 }  // namespace vegetation_sim::forest

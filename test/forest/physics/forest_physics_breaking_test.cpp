@@ -5,6 +5,7 @@
 
 #include "core/error_text.h"
 #include "scenes/forest/modal_forest_scene.h"
+#include "tree/growth/broken_branch.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -101,6 +102,32 @@ TEST(Breaking, WoodWithoutAStrengthNeverBreaks) {
   beam.rig.run(1.0);
   EXPECT_TRUE(beam.rig.forest.broken().empty());
   EXPECT_EQ(beam.rig.forest.grabs().size(), 1u);
+}
+
+// At the limit of branches that come off, wood stays and is told.
+TEST(Breaking, OverloadedWoodStaysBeyondTheLimitAndIsCounted) {
+  constexpr int SIDE = 65;
+  Layout layout = Cantilever::layout(40.0, STRENGTH);
+  const Layout grid = gridLayout(SIDE, 12.0);
+  layout.trees = grid.trees;
+  for (TreeSeed& seed : layout.trees) seed.species = 0;
+  ASSERT_GT(layout.trees.size(), MOST_BROKEN);
+  for (const std::size_t off : {MOST_BROKEN - 1, MOST_BROKEN}) {
+    PhysicsRig rig(layout);
+    for (std::size_t i = 1; i <= off; ++i)
+      rig.forest.cut({static_cast<std::uint32_t>(i), Cantilever::SEGMENTS - 1});
+    rig.run(0.1);
+    ASSERT_EQ(rig.forest.physicsFigures().broken, off);
+    EXPECT_EQ(rig.forest.physicsFigures().unbroken, 0u);
+    Grab grab = rig.grabOf(Cantilever::SEGMENTS - 1);
+    grab.stiffness = 1e5;
+    grab.force_limit = 1e5;
+    grab.target += Vec3(0.3, 0.0, -0.2);
+    rig.forest.addGrab(grab);
+    rig.run(0.5);
+    EXPECT_EQ(rig.forest.physicsFigures().broken, MOST_BROKEN) << off;
+    EXPECT_EQ(rig.forest.physicsFigures().unbroken, off == MOST_BROKEN ? 1u : 0u);
+  }
 }
 
 // As they are in every shipped scenario.

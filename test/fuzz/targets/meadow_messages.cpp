@@ -12,7 +12,7 @@
 namespace vegetation_sim::fuzz {
 namespace {
 
-enum PieceKind { LAYOUT, STATE, JUMP_BACK, PRUNE, KINDS };
+enum PieceKind { LAYOUT, STATE, JUMP_BACK, PRUNE, NEAR, KINDS };
 
 /// Draws what a viewer above the south-west corner sees, as GrassDisplay does.
 void draw(const SubscribedMeadow& meadow, Nanoseconds stamp) {
@@ -72,6 +72,13 @@ void receive(const Piece& piece, SubscribedMeadow& meadow) {
         meadow.apply(state);
       }
       break;
+    case NEAR:
+      if (NearGrass near; decode(piece.bytes, near)) {
+        if (meadow.ready()) near.state.layout_hash = meadow.layout().hash();
+        meadow.apply(near);
+        meadow.covers(SENSOR_PLACE, SENSOR_RANGE, stamp);
+      }
+      break;
     case JUMP_BACK:
       meadow.forgetLater(stamp);
       break;
@@ -104,7 +111,7 @@ grass::Layout lawn(bool picture) {
 }
 
 /// A track across a lawn: the layout, a key frame and two deltas.
-std::string track(bool picture) {
+std::string track(bool picture, bool is_near = false) {
   const grass::Layout layout = lawn(picture);
   grass::TreadSettings settings;
   settings.spacing = layout.tread_spacing;
@@ -122,7 +129,12 @@ std::string track(bool picture) {
     if (tick == 1)
       simulation.cut({{{1.0, 1.5}}, 0.5, 0.05, {{{1.0, 2.0}, {2.0, 2.0}, {2.0, 3.0}}}});
     simulation.advance(stamp);
-    out += pieceOf(STATE, encode(toMsg(simulation.update(tick == 0))));
+    const GrassState state = toMsg(simulation.update(tick == 0));
+    NearGrass near;
+    near.state = state;
+    near.discs.resize(1);
+    near.discs[0].radius = 30.0F;
+    out += pieceOf(is_near ? NEAR : STATE, is_near ? encode(near) : encode(state));
   }
   return out;
 }
@@ -130,13 +142,13 @@ std::string track(bool picture) {
 std::vector<std::string> seeds() {
   const std::string jump = pieceOf(JUMP_BACK, std::string("\x04\x00", 2));
   return {pieceOf(LAYOUT, encode(toMsg(lawn(false)))), track(false), track(true),
-          track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
+          track(false, true), track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
 }
 
 }  // namespace
 
 std::vector<Target> meadowMessageTargets() {
-  return {{"grass", "GrassLayout, GrassState; blades, strips and a sweep", run, seeds}};
+  return {{"grass", "GrassLayout, GrassState, NearGrass; blades, strips and a sweep", run, seeds}};
 }
 
 }  // namespace vegetation_sim::fuzz

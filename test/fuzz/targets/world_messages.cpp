@@ -10,6 +10,8 @@
 #include "nodes/cutters/cut_request.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "ros/conversions/grab_conversions.h"
+#include "ros/images/image_conversions.h"
+#include "ros/landscape/near_crowd.h"
 #include "ros/replicas/subscribed_crowd.h"
 #include "ros/replicas/subscribed_wind.h"
 #include "scenes/wind/wind_examples.h"
@@ -83,20 +85,33 @@ std::vector<std::string> windSeeds() {
 
 // People.
 
-enum AgentPiece { FULL, ROUNDED, AGENT_PIECES };
+enum AgentPiece { FULL, ROUNDED, NEAR, AGENT_PIECES };
+
+void receive(const Piece& piece, SubscribedCrowd& crowd, NearCrowd& near) {
+  switch (piece.kind % AGENT_PIECES) {
+    case ROUNDED:
+      if (CrowdView message; decode(piece.bytes, message)) crowd.apply(message);
+      break;
+    case NEAR:
+      if (NearAgents message; decode(piece.bytes, message) && near.accepts(message))
+        near.apply(message);
+      break;
+    default:
+      if (AgentStates message; decode(piece.bytes, message)) crowd.apply(message);
+  }
+}
 
 void runAgents(std::string_view input) {
-  SubscribedCrowd crowd;
-  for (const Piece& piece : splitPieces(input)) {
-    if (piece.kind == ROUNDED) {
-      if (CrowdView message; decode(piece.bytes, message)) crowd.apply(message);
-    } else if (AgentStates message; decode(piece.bytes, message)) {
-      crowd.apply(message);
-    }
-  }
+  SubscribedCrowd crowd{ReplicaOptions()};
+  NearCrowd near{ReplicaOptions()};
+  for (const Piece& piece : splitPieces(input)) receive(piece, crowd, near);
+  if (near.covers(SENSOR_PLACE, SENSOR_RANGE, START) && near.stamp() == 0)
+    throw BrokenPromise("people near a place are known without a message");
+  std::vector<SubscribedCrowd::Person> all = crowd.people();
+  all.insert(all.end(), near.people().begin(), near.people().end());
   const terrain::HeightMap ground;
   std::vector<scan::People::Person> people;
-  for (const SubscribedCrowd::Person& person : crowd.people()) {
+  for (const SubscribedCrowd::Person& person : all) {
     crowd::Walker walker = person.walker;
     crowd::advanceGait(0.1, walker);
     people.push_back({walker.id, crowd::skeletonOf(walker, ground)});
@@ -124,12 +139,18 @@ std::vector<std::string> agentSeeds() {
     message.agents.push_back(toMsg(walker, ground));
     walkers.push_back(walker);
   }
+  NearAgents near;
+  near.header.stamp = message.header.stamp;
+  near.agents = message.agents;
+  near.discs.resize(1);
+  near.discs[0].radius = 50.0F;
   const std::string full = pieceOf(FULL, encode(message));
-  return {full, full + full, pieceOf(ROUNDED, encode(toView(walkers, ground)))};
+  return {full, full + full, pieceOf(ROUNDED, encode(toView(walkers, ground))),
+          pieceOf(NEAR, encode(near))};
 }
 
-// Inputs of nodes that need no state: viewers, sensors, treads, spawns, robots, grabs, covers, and
-// requests to cut grass and plants.
+// Inputs of nodes that need no state: viewers, sensors, lenses, treads, spawns, robots, grabs,
+// covers, and requests to cut grass and plants.
 
 enum InputPiece {
   VIEWER,
@@ -142,6 +163,7 @@ enum InputPiece {
   BODY,
   COVER,
   CUT,
+  LENS,
   INPUT_PIECES
 };
 
@@ -214,6 +236,10 @@ void convertInput(const Piece& piece) {
       });
     case CUT:  // CutGrass and CutPlants are the same request
       return convert<CutGrass::Request>(piece.bytes, [](const auto& m) { cutArea(m.cut); });
+    case LENS:
+      return convert<sensor_msgs::CameraInfo>(piece.bytes, [](const sensor_msgs::CameraInfo& m) {
+        requireFinite(scan::directionOf(fromMsg(m, ""), {0.0, 0.0}), "ray of a lens");
+      });
     case BODY:
       return convert<ForestBody>(piece.bytes, [](const ForestBody& m) { toMsg(fromMsg(m)); });
     default:
@@ -247,6 +273,7 @@ std::vector<std::string> inputSeeds() {
   body.id = "arm";
   body.pose.orientation.w = body.offset.orientation.w = 1.0;
   body.size.x = 0.1;
+  const sensor_msgs::CameraInfo lens = toMsg(scan::Lens());
   BranchForce force;
   force.duration = 1.0;
   CutGrass::Request cut;
@@ -263,18 +290,19 @@ std::vector<std::string> inputSeeds() {
           pieceOf(TREAD, encode(tread)),   pieceOf(SPAWN, encode(toMsg(crowd::Spawn()))),
           pieceOf(ROBOT, encode(robot)),   pieceOf(GRAB, encode(toMsg(forest::Grab()))),
           pieceOf(FORCE, encode(force)),   pieceOf(BODY, encode(body)),
-          pieceOf(COVER, encode(cover))};
+          pieceOf(COVER, encode(cover)),   pieceOf(LENS, encode(lens))};
 }
 
 }  // namespace
 
 std::vector<Target> worldMessageTargets() {
-  return {{"wind", "WindField, WindPrimitive and edits of a field; samples", runWind, windSeeds},
-          {"agents", "AgentStates, CrowdView; bodies and a sweep", runAgents, agentSeeds},
-          {"inputs",
-           "Viewer, SensorInterest, TreadEvent, AgentSpawn, CrowdRobot, OccupancyGrid, requests to "
-           "cut, and the parts of ForestEvent",
-           runInputs, inputSeeds}};
+  return {
+      {"wind", "WindField, WindPrimitive and edits of a field; samples", runWind, windSeeds},
+      {"agents", "AgentStates, CrowdView, NearAgents; bodies and a sweep", runAgents, agentSeeds},
+      {"inputs",
+       "Viewer, SensorInterest, CameraInfo, TreadEvent, AgentSpawn, CrowdRobot, OccupancyGrid, "
+       "requests to cut, and the parts of ForestEvent",
+       runInputs, inputSeeds}};
 }
 
 }  // namespace vegetation_sim::fuzz
