@@ -4,9 +4,9 @@
 # Runs a scene in four shards on four hosts, which are network namespaces with virtual links, beside
 # the same scene in one node each on the host of the master. Walkers tread over borders, branches
 # are held, pushed and cut through the wrong shard. The hashes of the shards have to add up to those
-# of the single nodes at each tick, and the points of a lidar have to be equal. Prints a table.
-# The links have a delay if the kernel has netem.
-# usage: scripts/test_shards.sh [TICKS [DELAY [LOSS]]]  (600 ticks, 1 ms, 0 %)
+# of the single nodes at each tick, the people of two crowds and the points of a lidar have to be those
+# of one. Prints a table. If the kernel has no netem, a program delays and loses packets.
+# usage: scripts/test_shards.sh [TICKS [DELAY [LOSS]]]  (600 ticks, 1ms and 0% each way)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -32,11 +32,11 @@ ip link set lo up
 ip link add hub type bridge
 ip address add $MASTER/24 dev hub
 ip link set hub up
-netem=yes
+netem=yes pairs=()
 for host in $(seq $HOSTS); do
   ip netns add "host_$host"
   ip link add "link_$host" type veth peer name eth0 netns "host_$host"
-  ip link set "link_$host" master hub up
+  ip link set "link_$host" up
   ip -n "host_$host" link set lo up
   ip -n "host_$host" address add "10.77.0.1$host/24" dev eth0
   ip -n "host_$host" link set eth0 up
@@ -44,11 +44,22 @@ for host in $(seq $HOSTS); do
     $command root netem delay "$delay" loss "$loss" 2>/dev/null || netem=no
   done
 done
-if [ $netem = yes ]; then
-  say "links with a delay of $delay and a loss of $loss each way"
-else
-  say 'the kernel has no netem: the links have no delay'
+for host in $(seq $HOSTS); do
+  if [ $netem = yes ]; then
+    ip link set "link_$host" master hub
+  else
+    ip link add "wire_$host" type veth peer name "port_$host"
+    ip link set "wire_$host" up
+    ip link set "port_$host" master hub up
+    pairs+=("link_$host:wire_$host")
+  fi
+done
+if [ $netem = no ]; then
+  python3 test/nodes/shards/delayed_links.py \
+    "$(python3 -c "print(1e-3 * ${delay%ms})")" "$(python3 -c "print(1e-2 * ${loss%\%})")" \
+    "${pairs[@]}" 2>"$WORK/links.log" &
 fi
+say "links with a delay of $delay and a loss of $loss each way, netem: $netem"
 
 # usage: start HOST (0: that of the master) TYPE NAME [ARGUMENT ...]
 start() {
@@ -75,6 +86,16 @@ start_pair() {
 }
 for index in $(seq 0 $((HOSTS - 1))); do start_pair $((index + 1)) / "$index" "$index" "$HOSTS"; done
 start_pair 0 /whole/ all 0 1
+# usage: start_crowd HOST NAMESPACE SUFFIX INDEX COUNT
+start_crowd() {
+  rosparam load "$ROOT/test/nodes/shards/hosts_crowd.yaml" "$2crowd_$3"
+  rosparam set "$2crowd_$3/shard" "{index: $4, count: $5}"
+  start "$1" agent_crowd "crowd_$3" "__ns:=$2" "_scenario:=$scene" forest/layout:=none/layout \
+    grass/cover/resistance:=none/resistance
+}
+start_crowd 1 / 0 0 2
+start_crowd 3 / 1 1 2
+start_crowd 0 /whole/ all 0 1
 start 0 wind_broadcaster wind_broadcaster "_scenario:=$scene"
 for namespace in / /whole/; do
   start 0 vegetation_scanner scanner "__ns:=$namespace" wind:=/wind _frame_id:=map
