@@ -38,6 +38,8 @@ void ForestProperties::addLook(rviz::Display& display) {
                             &display, SLOT(updateTrees()), &display);
   most_trees_->setMin(1);
   most_trees_->setMax(20000);
+  by_bough_ = addFlag("Detail by Boughs", true,
+                      "Boughs of near trees have levels of detail by their own distance.", display);
   leaves_ = new rviz::BoolProperty("Leaves", true, "Draw leaves.", &display, SLOT(updateTrees()),
                                    &display);
   flutter_ = addFlag("Flutter", true, "Leaves flutter where wind blows.", display);
@@ -71,6 +73,7 @@ ForestVisual::Options ForestProperties::options() const {
   out.look = {leaves_->getBool(), flutter_->getBool(),
               static_cast<TreeColours>(colours_->getOptionInt())};
   out.target_triangles = triangles_->getInt();
+  out.by_bough = by_bough_->getBool();
   out.most_trees = static_cast<std::size_t>(most_trees_->getInt());
   return out;
 }

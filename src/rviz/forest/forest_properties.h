@@ -37,7 +37,7 @@ class ForestProperties : public SceneryProperties {
 
   rviz::RosTopicProperty *layout_, *wind_, *state_, *grabs_;
   rviz::IntProperty *triangles_, *most_trees_;
-  rviz::BoolProperty *leaves_, *flutter_, *moving_shadows_;
+  rviz::BoolProperty *leaves_, *flutter_, *moving_shadows_, *by_bough_;
   rviz::EnumProperty* colours_;
 };
 

@@ -101,10 +101,10 @@ bool ForestVisual::prepare(const View& view, const Options& options) {
     if (Clock::now() >= end) return false;
     DrawnTree& tree = *next_->trees()[prepared_];
     const DrawnTree* before = tree_set_->find(tree.id());
-    const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
     const bool built = before != nullptr && before->level() >= 0;
-    tree.setLevel(built ? before->level() : forest::geometryLevel(size, -1), next_->light(),
-                  options.look);
+    tree.setLevels(
+        built ? before->levels() : tree.levelsFor(view.eye, feedback_.factor(), options.by_bough),
+        next_->light(), options.look);
   }
   return true;
 }
@@ -177,16 +177,19 @@ bool ForestVisual::changeLevel(DrawnTree& tree, const View& view, const Options&
   const auto clock = static_cast<float>(fade_clock_);
   const bool ends = tree.fading() && clock - tree.fadesSince() >= 1.f;
   if (ends) tree.endFade();
-  const double size = pixelsOf(tree, view) * tree.height() * feedback_.factor();
-  const int level = forest::geometryLevel(size, tree.level());
-  if (level == tree.level() && !repaint_) return ends;
-  const bool fades = settled_ && level != tree.level() && isSeen(tree, view);
+  const forest::TreeLevels levels = tree.levelsFor(view.eye, feedback_.factor(), options.by_bough);
+  const bool same = levels == tree.levels();
+  // Levels of boughs wait for the factor to settle, since each change takes a fade.
+  const bool of_boughs =
+      !same && levels.trunk == tree.level() && feedback_.factor() != last_factor_;
+  if ((same || of_boughs) && !repaint_) return ends;
+  const bool fades = settled_ && !same && isSeen(tree, view);
   const bool room = report_.fading < std::max(FADERS, tree_set_->trees().size() / FADERS);
   if (!repaint_ && (!in_time || tree.fading() || (fades && !room))) {
     ++report_.waiting;
     return ends;
   }
-  tree.setLevel(level, tree_set_->light(), options.look, fades ? clock : 0.f);
+  tree.setLevels(levels, tree_set_->light(), options.look, fades ? clock : 0.f);
   return true;
 }
 
@@ -196,7 +199,7 @@ bool ForestVisual::regrow(const forest::ForestReplica& replica, DrawnTree& tree,
   if (!tree.isOutdated(replica)) return false;
   tree.regrow(replica);
   if (tree.level() < 0) return false;
-  tree.setLevel(tree.level(), tree_set_->light(), options.look);
+  tree.setLevels(forest::TreeLevels(tree.levels()), tree_set_->light(), options.look);
   return true;
 }
 
@@ -302,7 +305,7 @@ void ForestVisual::movePieces(const forest::ForestReplica& replica, Nanoseconds 
     if (level < 0) continue;
     const bool changed = level != piece.tree->level();
     if (changed) {
-      piece.tree->setLevel(level, tree_set_->light(), options.look);
+      piece.tree->setLevels({level, {}}, tree_set_->light(), options.look);
       piece.batch->rebuild();
     }
     if (piece.tree->move(replica, stamp, wind, options.look, 1.0)) piece.batch->takePositions();
@@ -314,6 +317,7 @@ void ForestVisual::measure(const View& view, const Options& options) {
   report_.tree_sets = tree_sets_;
   report_.triangles = 0;
   report_.per_level.fill(0);
+  last_factor_ = feedback_.factor();
   for (const auto& tree : tree_set_->trees()) {
     if (tree->level() < 0) continue;
     ++report_.per_level[static_cast<std::size_t>(tree->level())];

@@ -39,6 +39,7 @@ class ForestVisual {
     std::map<std::uint32_t, std::vector<int>> held;  ///< branches by tree, sorted
     double target_triangles{80000.0};
     std::size_t most_trees{1000};
+    bool by_bough{true};  ///< boughs of near trees have levels of detail of their own
   };
 
   /// @param parent node in the frame of the layout.
@@ -91,6 +92,7 @@ class ForestVisual {
   Vec3 selected_at_{Vec3::Zero()};  // viewer at the selection
   bool selected_all_{true};
   forest::ComplexityFeedback feedback_;
+  double last_factor_{0.0};  // of the last update
   bool repaint_{false};
   bool settled_{false};  // an update has changed no level
   double fade_clock_{1.0}, wall_{0.0};

@@ -50,7 +50,8 @@ DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, con
       tree_(replica.grow(id)),
       species_(replica.layout().species.at(tree_.seed.species)),
       paint_(species_, tree_.seed.seed),
-      poser_(tree_) {}
+      poser_(tree_),
+      boughs_(tree_.skeleton) {}
 
 DrawnTree::DrawnTree(const forest::ForestReplica& replica, std::uint32_t id, const Vec3& origin,
                      std::shared_ptr<const forest::FallingPiece> piece)
@@ -75,6 +76,7 @@ void DrawnTree::regrow(const forest::ForestReplica& replica) {
   broken_ = brokenOf(replica.broken(), id_);
   tree_ = replica.grow(id_);
   poser_ = forest::BatchPoser(tree_);
+  boughs_ = forest::Boughs(tree_.skeleton);
   painted_by_state_ = false;
 }
 
@@ -92,20 +94,25 @@ Vec3 DrawnTree::inLayout(const float* position) const {
   return origin_ + Vec3(position[0], position[1], position[2]);
 }
 
-DrawnTree::Shape DrawnTree::makeShape(int level, const TreeLook& look) const {
-  const forest::MeshDetail detail = forest::meshDetail(level);
-  Shape out{detail.depths, forest::buildMesh(tree_.skeleton, species_, detail), {}, {}};
+forest::TreeLevels DrawnTree::levelsFor(const Viewpoint& eye, double factor, bool by_bough) const {
+  return forest::treeLevels(tree_.skeleton, boughs_, tree_.foot, eye, factor, by_bough, levels_);
+}
+
+DrawnTree::Shape DrawnTree::makeShape(const forest::TreeLevels& levels,
+                                      const TreeLook& look) const {
+  const forest::TreeMeshDetail detail = forest::treeMeshDetail(boughs_, levels);
+  Shape out{detail.depths(), forest::buildMesh(tree_.skeleton, species_, detail), {}, {}};
   if (!look.leaves) out.mesh.leaves.clear();
   out.bark.positions.resize(3 * out.mesh.bark.size());
   out.leaves.positions.resize(3 * forest::LEAF_CORNERS * out.mesh.leaves.size());
   return out;
 }
 
-void DrawnTree::setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
-                         float fade_clock) {
-  shapes_.resize(fade_clock > 0.f && level_ >= 0 ? 1 : 0);
-  shapes_.insert(shapes_.begin(), makeShape(level, look));
-  level_ = level;
+void DrawnTree::setLevels(const forest::TreeLevels& levels, const forest::LightGrid& light,
+                          const TreeLook& look, float fade_clock) {
+  shapes_.resize(fade_clock > 0.f && levels_.trunk >= 0 ? 1 : 0);
+  shapes_.insert(shapes_.begin(), makeShape(levels, look));
+  levels_ = levels;
   poseAtRest();
   skin(forest::Flutter());
   moved_ = true;
@@ -148,7 +155,7 @@ void DrawnTree::skin(const forest::Flutter& flutter) {
 
 bool DrawnTree::move(const forest::ForestReplica& replica, Nanoseconds stamp,
                      const wind::Instant& wind, const TreeLook& look, double pixels_per_metre) {
-  if (level_ < 0) return false;
+  if (level() < 0) return false;
   if (piece_) return movePiece(stamp);
   const forest::Weights weights = replica.weights(id_, stamp);
   forest::Flutter flutter;
@@ -222,8 +229,8 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
                 paint);
       setColour(colour, paint);
       paint.colour[3] = byte(sun);
-      const std::array<float, 2> place =
-          leafAtlasPlace(species_.leaf_shape, shape.mesh.boughs, shape.mesh.outline[i]);
+      const std::array<float, 2> place = leafAtlasPlace(
+          species_.leaf_shape, shape.mesh.showsBough(card), shape.mesh.outlineOf(card)[i]);
       std::copy(place.begin(), place.end(), paint.place);
       paint.place[2] = static_cast<float>(sky);
     }
@@ -233,7 +240,7 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
 bool DrawnTree::paintStates(const forest::ForestReplica& replica, Nanoseconds stamp,
                             const TreeLook& look, const std::vector<int>& held) {
   const bool by_state = look.colours == TreeColours::BY_STATE;
-  if (level_ < 0 || (!by_state && !painted_by_state_)) return false;
+  if (level() < 0 || (!by_state && !painted_by_state_)) return false;
   forest::Weights weights{};
   std::vector<int> physical, marked;
   if (by_state) {

@@ -44,7 +44,7 @@ class DrawnTree {
   bool isPiece(const forest::BrokenBranch& record) const {
     return piece_ && piece_->record() == record;
   }
-  /// Grows the tree again; setLevel() has to follow.
+  /// Grows the tree again; setLevels() has to follow.
   void regrow(const forest::ForestReplica& replica);
 
   std::uint32_t id() const { return id_; }
@@ -53,19 +53,22 @@ class DrawnTree {
   double height() const { return tree_.skeleton.height; }
   double reach() const { return tree_.skeleton.reach; }
   double leafSize() const { return species_.leaf_size; }  ///< edge of a cluster [m]
-  int level() const { return level_; }  ///< of geometry, or -1 before the first mesh
+  int level() const { return levels_.trunk; }  ///< of geometry, or -1 before the first mesh
+  const forest::TreeLevels& levels() const { return levels_; }
+  /// Returns the levels for a viewer, see forest::treeLevels().
+  forest::TreeLevels levelsFor(const Viewpoint& eye, double factor, bool by_bough) const;
   /// Counts the triangles of its level without those that fade out.
   std::size_t triangleCount() const { return shapes_.front().mesh.triangleCount(); }
   const forest::Tree& tree() const { return tree_; }
 
   /// Adds its leaves to a light grid in the layout's frame.
   void addTo(forest::LightGrid& light) const;
-  /// Builds the mesh of a geometry level at rest.
+  /// Builds the mesh of levels of geometry at rest.
   /// @param fade_clock if positive, the previous mesh fades out from this time of the fade clock
   /// while
   ///   the new one fades in, until endFade().
-  void setLevel(int level, const forest::LightGrid& light, const TreeLook& look,
-                float fade_clock = 0.f);
+  void setLevels(const forest::TreeLevels& levels, const forest::LightGrid& light,
+                 const TreeLook& look, float fade_clock = 0.f);
   bool fading() const { return shapes_.size() > 1; }
   float fadesSince() const { return fades_since_; }
   void endFade();
@@ -92,7 +95,7 @@ class DrawnTree {
 
  private:
   bool movePiece(Nanoseconds stamp);
-  Shape makeShape(int level, const TreeLook& look) const;
+  Shape makeShape(const forest::TreeLevels& levels, const TreeLook& look) const;
   int depths() const;
   void poseAtRest();
   void skin(const forest::Flutter& flutter);
@@ -108,7 +111,8 @@ class DrawnTree {
   forest::Species species_;
   forest::TreePaint paint_;
   forest::BatchPoser poser_;
-  int level_{-1};
+  forest::Boughs boughs_;
+  forest::TreeLevels levels_;
   forest::BatchPoses poses_;
   std::vector<Shape> shapes_ = std::vector<Shape>(1);
   float fades_since_{0.f};

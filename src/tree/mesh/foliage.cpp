@@ -54,7 +54,7 @@ Quat turnYTo(const Vec3& d) {
 
 class Foliage {
  public:
-  Foliage(const Skeleton& skeleton, const Species& species, const MeshDetail& detail)
+  Foliage(const Skeleton& skeleton, const Species& species, const TreeMeshDetail& detail)
       : skeleton_(skeleton),
         species_(species),
         detail_(detail),
@@ -69,21 +69,25 @@ class Foliage {
     leaf_scale_ = std::sqrt(skeleton.trunk_radius / species.trunk_radius);
   }
 
-  std::vector<LeafCard> place() const {
-    std::vector<LeafCard> out;
+  // Returns the number of cards that show clusters, which come first.
+  std::size_t place(std::vector<LeafCard>& out) const {
+    std::vector<LeafCard> boughs;
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
+      const MeshDetail& detail = detail_.of(static_cast<int>(i));
       for (int l = 0; l < branch.leaves; ++l) {
         const Random random = Random(branch.key).child(static_cast<std::uint64_t>(l));
         // The cheap test comes first: at low levels nearly all are omitted.
-        if (random.uniform(KEPT) >= detail_.leaf_fraction * LARGEST_PREFERENCE) continue;
-        LeafCard leaf = card(static_cast<int>(i), l, random);
-        if (random.uniform(KEPT) >= detail_.leaf_fraction * preference(leaf)) continue;
-        if (branch.depth >= detail_.depths) carryToDrawn(leaf, random);
-        out.push_back(leaf);
+        if (random.uniform(KEPT) >= detail.leaf_fraction * LARGEST_PREFERENCE) continue;
+        LeafCard leaf = card(static_cast<int>(i), l, detail, random);
+        if (random.uniform(KEPT) >= detail.leaf_fraction * preference(leaf, detail)) continue;
+        if (branch.depth >= detail.depths) carryToDrawn(leaf, detail, random);
+        (detail.boughs ? boughs : out).push_back(leaf);
       }
     }
-    return out;
+    const std::size_t clusters = out.size();
+    out.insert(out.end(), boughs.begin(), boughs.end());
+    return clusters;
   }
 
  private:
@@ -93,7 +97,7 @@ class Foliage {
     leaf.rotation = {narrow(q.w), narrow(q.x), narrow(q.y), narrow(q.z)};
   }
 
-  LeafCard card(int branch, int number, const Random& random) const {
+  LeafCard card(int branch, int number, const MeshDetail& detail, const Random& random) const {
     const Branch& b = at(branch);
     LeafCard out;
     out.branch = branch;
@@ -105,10 +109,10 @@ class Foliage {
     setRotation(aboutZ(side) * aboutX(-angle) * Quat{SQRT_HALF, SQRT_HALF, 0.0, 0.0} *
                     aboutY(random.uniform(TURN, -habit_.turn, habit_.turn)),
                 out);
-    if (hangs()) setRotation(conjugate(b.rest.orientation) * hanging(random), out);
+    if (hangs(detail)) setRotation(conjugate(b.rest.orientation) * hanging(random), out);
     // Short branches, as at the tip of a cone, have small clusters.
     const double fit = std::clamp(std::sqrt(b.length / mean_leafy_length_), 0.4, 1.25);
-    out.size = narrow(species_.leaf_size * leaf_scale_ * detail_.leaf_growth * fit *
+    out.size = narrow(species_.leaf_size * leaf_scale_ * detail.leaf_growth * fit *
                       random.uniform(SIZE, 0.8, 1.2));
     out.shade = narrow(shadeAt(tipOf(b, b.rest), random.uniform(SHADE)));
     out.key = static_cast<std::uint32_t>(random.bits(FLUTTER));
@@ -116,7 +120,7 @@ class Foliage {
   }
 
   // Far away, boughs of some species are drawn hanging straight down.
-  bool hangs() const { return detail_.boughs && habit_.hangs; }
+  bool hangs(const MeshDetail& detail) const { return detail.boughs && habit_.hangs; }
 
   // In the tree's frame: midrib down, any way round.
   static Quat hanging(const Random& random) {
@@ -125,17 +129,17 @@ class Foliage {
   }
 
   // Outer leaves hide those inside the crown, which are omitted first.
-  double preference(const LeafCard& leaf) const {
-    if (detail_.leaf_fraction >= 1.0) return LARGEST_PREFERENCE;
+  double preference(const LeafCard& leaf, const MeshDetail& detail) const {
+    if (detail.leaf_fraction >= 1.0) return LARGEST_PREFERENCE;
     return habit_.inner + 2.0 * (1.0 - habit_.inner) * static_cast<double>(leaf.shade);
   }
 
   // A card on a branch that is not drawn is fixed to the nearest drawn ancestor at its rest pose:
   // joints without vertices are then not posed either (S1-09). A piece of which nothing is drawn
   // has its cards on its first branch.
-  void carryToDrawn(LeafCard& leaf, const Random& random) const {
+  void carryToDrawn(LeafCard& leaf, const MeshDetail& detail, const Random& random) const {
     int root = leaf.branch;  // the lowest ancestor that is not drawn
-    while (at(root).parent >= 0 && at(at(root).parent).depth >= detail_.depths)
+    while (at(root).parent >= 0 && at(at(root).parent).depth >= detail.depths)
       root = at(root).parent;
     const int holder = std::max(at(root).parent, 0);
     const Pose& from = at(leaf.branch).rest;
@@ -143,7 +147,7 @@ class Foliage {
     Vec3 place = from.position + static_cast<double>(leaf.local[2]) * axisZ(from.orientation);
     Quat turn = from.orientation *
                 Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
-    if (detail_.boughs) rootBough(at(root).rest.position, random, place, turn, leaf);
+    if (detail.boughs) rootBough(at(root).rest.position, random, place, turn, leaf);
     const Quat back = conjugate(to.orientation);
     const Vec3 local = rotate(back, place - to.position);
     leaf.branch = holder;
@@ -173,7 +177,7 @@ class Foliage {
 
   const Skeleton& skeleton_;
   const Species& species_;
-  const MeshDetail& detail_;
+  const TreeMeshDetail& detail_;
   const LeafHabit& habit_;
   double mean_leafy_length_{1.0};  // [m]
   double leaf_scale_{1.0};
@@ -181,9 +185,9 @@ class Foliage {
 
 }  // namespace
 
-std::vector<LeafCard> placeLeaves(const Skeleton& skeleton, const Species& species,
-                                  const MeshDetail& detail) {
-  return Foliage(skeleton, species, detail).place();
+std::size_t placeLeaves(const Skeleton& skeleton, const Species& species,
+                        const TreeMeshDetail& detail, std::vector<LeafCard>& out) {
+  return Foliage(skeleton, species, detail).place(out);
 }
 
 std::array<float, 2> leafFlutter(std::uint32_t key, double seconds, double wind_speed,

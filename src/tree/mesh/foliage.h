@@ -8,9 +8,10 @@
 
 namespace vegetation_sim::forest {
 
-/// Returns the leaf cards of a mesh: a pure function of skeleton, species and detail. Fewer cards
-/// are a subset of more, so that leaves stay in place between levels.
-std::vector<LeafCard> placeLeaves(const Skeleton& skeleton, const Species& species,
-                                  const MeshDetail& detail);
+/// Adds the leaf cards of a mesh, a pure function of skeleton, species and detail, those that show
+/// clusters first. Fewer cards are a subset of more, so that leaves stay in place between levels.
+/// @return the number of cards that show clusters.
+std::size_t placeLeaves(const Skeleton& skeleton, const Species& species,
+                        const TreeMeshDetail& detail, std::vector<LeafCard>& out);
 
 }  // namespace vegetation_sim::forest

@@ -27,22 +27,22 @@ constexpr std::array<LeafOutline, 8> OUTLINES{
 
 class MeshBuilder {
  public:
-  MeshBuilder(const Skeleton& skeleton, const Species& species, const MeshDetail& detail)
+  MeshBuilder(const Skeleton& skeleton, const Species& species, const TreeMeshDetail& detail)
       : skeleton_(skeleton), species_(species), detail_(detail) {}
 
   TreeMesh build() {
+    const int depths = detail_.depths();
     for (std::size_t i = 0; i < skeleton_.branches.size(); ++i) {
       const Branch& branch = skeleton_.branches[i];
-      if (branch.depth >= detail_.depths) break;
-      if (branch.broken) continue;
+      if (branch.depth >= depths) break;
+      if (branch.broken || branch.depth >= detail_.of(static_cast<int>(i)).depths) continue;
       const bool first =
           branch.parent < 0 ||
           skeleton_.branches[static_cast<std::size_t>(branch.parent)].next != static_cast<int>(i);
       if (first) addLimb(static_cast<int>(i));
     }
-    out_.leaves = placeLeaves(skeleton_, species_, detail_);
-    out_.boughs = detail_.boughs;
-    out_.outline = leafOutline(species_.leaf_shape, detail_.boughs);
+    out_.clusters = placeLeaves(skeleton_, species_, detail_, out_.leaves);
+    out_.shape = species_.leaf_shape;
     return std::move(out_);
   }
 
@@ -52,10 +52,11 @@ class MeshBuilder {
   // A tube along the limb: a ring at the base of each branch (of some where there are more than
   // the detail allows sections) and one at the tip.
   void addLimb(int first) {
-    const int sides = std::max(FEWEST_SIDES, detail_.trunk_sides - 4 * at(first).depth);
+    const MeshDetail& detail = detail_.of(first);
+    const int sides = std::max(FEWEST_SIDES, detail.trunk_sides - 4 * at(first).depth);
     int segments = 0;
     for (int i = first; i >= 0; i = at(i).next) ++segments;
-    const int sections = std::min(segments, std::max(1, detail_.sections));
+    const int sections = std::min(segments, std::max(1, detail.sections));
     double along = 0.0;
     int last = first;
     for (int i = first, s = 0; i >= 0; i = at(i).next, ++s) {
@@ -111,7 +112,7 @@ class MeshBuilder {
 
   const Skeleton& skeleton_;
   const Species& species_;
-  const MeshDetail& detail_;
+  const TreeMeshDetail& detail_;
   TreeMesh out_;
 };
 
@@ -121,8 +122,12 @@ const LeafOutline& leafOutline(LeafShape shape, bool boughs) {
   return OUTLINES[static_cast<std::size_t>(shape) + (boughs ? 4 : 0)];
 }
 
-TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail) {
+TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const TreeMeshDetail& detail) {
   return MeshBuilder(skeleton, species, detail).build();
+}
+
+TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail) {
+  return buildMesh(skeleton, species, TreeMeshDetail{detail, {}, {}});
 }
 
 }  // namespace vegetation_sim::forest

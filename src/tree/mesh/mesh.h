@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tree/mesh/geometry_level.h"
+#include "tree/mesh/bough_levels.h"
 #include "vegetation_sim/tree/growth/skeleton.h"
 
 namespace vegetation_sim::forest {
@@ -52,14 +52,21 @@ struct TreeMesh {
   std::vector<std::uint32_t>
       triangles;  ///< [3 per triangle] indices into `bark`, seen from outside
   std::vector<LeafCard> leaves;
-  bool boughs{false};     ///< cards show whole boughs
-  LeafOutline outline{};  ///< of all cards
+  std::size_t clusters{0};  ///< number of cards, the first ones, that show a cluster of leaves
+  LeafShape shape{};        ///< of the leaves
 
+  /// Returns whether a card shows a whole bough.
+  bool showsBough(std::size_t card) const { return card >= clusters; }
+  const LeafOutline& outlineOf(std::size_t card) const {
+    return leafOutline(shape, showsBough(card));
+  }
   /// Two triangles per leaf card.
   std::size_t triangleCount() const { return triangles.size() / 3 + 2 * leaves.size(); }
 };
 
-/// Builds the mesh, a pure function of skeleton, species and detail.
+/// Builds the mesh, a pure function of skeleton, species and detail. That of each bough is as in a
+/// mesh that has its detail everywhere.
+TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const TreeMeshDetail& detail);
 TreeMesh buildMesh(const Skeleton& skeleton, const Species& species, const MeshDetail& detail);
 
 /// Returns the rotation of a leaf card about its midrib and its base [rad] (S1-W5): its mean over

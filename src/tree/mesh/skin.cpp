@@ -88,13 +88,14 @@ void turnBarkNormals(const TreeMesh& mesh, const BatchPoses& poses, float* norma
 
 void skinLeaves(const TreeMesh& mesh, const BatchPoses& poses, const std::array<float, 3>& foot,
                 const Flutter& flutter, float* positions) {
-  for (const LeafCard& card : mesh.leaves) {
+  for (std::size_t number = 0; number < mesh.leaves.size(); ++number) {
+    const LeafCard& card = mesh.leaves[number];
     const Turn turn = turnOf(poses, card.branch);
     const Axes axes = axesOf(turn);
     std::array<float, 3> at = baseOf(poses, card.branch);
     for (std::size_t i = 0; i < 3; ++i) at[i] += foot[i] + along(axes, card.local, i);
-    writeCard(card, mesh.outline, at, axesOf(multiply(turn, card.rotation)), flutter.of(card.key),
-              positions);
+    writeCard(card, mesh.outlineOf(number), at, axesOf(multiply(turn, card.rotation)),
+              flutter.of(card.key), positions);
     positions += std::size_t{3} * LEAF_CORNERS;
   }
 }

@@ -32,14 +32,20 @@ def publisher(topic, message_type):
     return publishers[-1]
 
 
+def unsent(socket):
+    """Returns the number of bytes that a socket has not sent; 0 if its reader has gone, which another
+    thread may see at any time."""
+    try:
+        return struct.unpack('i', fcntl.ioctl(socket, SIOCOUTQNSD, b'\0' * 4))[0]
+    except (OSError, ValueError):
+        return 0
+
+
 def all_delivered():
     """Returns whether the last byte of all published messages is in the socket of its
     subscriber."""
-    sockets = [link.socket for publisher in publishers if publisher.impl
-               for link in publisher.impl.connections
-               if link.socket and link.socket.fileno() >= 0]
-    return not any(struct.unpack('i', fcntl.ioctl(socket, SIOCOUTQNSD, b'\0' * 4))[0]
-                   for socket in sockets)
+    links = [link for publisher in publishers if publisher.impl for link in list(publisher.impl.connections)]
+    return not any(unsent(link.socket) for link in links if link.socket)
 
 
 def slave(node):

@@ -105,6 +105,15 @@ class ShardedNodes {
               [&] { return counts_[stamp] >= shards && whole_hashes.count(stamp) > 0; });
   }
 
+  /// Returns the stamp of the last tick once both replicas have it.
+  Nanoseconds settle() {
+    const Nanoseconds stamp = grid_.timeOf(tick_);
+    spinUntil("both replicas", [&] {
+      return replica.replica().stamp() == stamp && whole_replica.replica().stamp() == stamp;
+    });
+    return stamp;
+  }
+
   template <class Service>
   typename Service::Response call(const std::string& node, const std::string& name,
                                   const typename Service::Request& request) {

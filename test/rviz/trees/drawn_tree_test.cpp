@@ -48,8 +48,8 @@ struct RegisteredViewer {
 TEST(DrawnTree, PhysicalBranchesAreDrawnWhereTheForestHasThem) {
   RegisteredViewer viewer;
   DrawnTree tree(viewer.replica, 0, Vec3::Zero());
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1,
-                forest::LightGrid(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0), TreeLook());
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}},
+                 forest::LightGrid(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0), TreeLook());
   ASSERT_TRUE(viewer.move(tree));
   const double radius = viewer.rig.branches()[viewer.branch].tip_radius;
   EXPECT_LT(viewer.distanceAtTip(tree), 1.5 * radius);
@@ -75,14 +75,14 @@ TEST(DrawnTree, APieceFallsBesideItsTree) {
   RegisteredViewer viewer;
   const forest::LightGrid light(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0);
   DrawnTree tree(viewer.replica, 0, Vec3::Zero());
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}}, light, TreeLook());
   const std::size_t whole = tree.triangleCount();
   EXPECT_FALSE(tree.isOutdated(viewer.replica));
   viewer.rig.forest.cut({0, viewer.rig.tree.skeleton.depth_end[0]});
   viewer.run(1.0 / forest::TICK_RATE);
   EXPECT_TRUE(tree.isOutdated(viewer.replica));
   tree.regrow(viewer.replica);
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}}, light, TreeLook());
   EXPECT_FALSE(tree.isOutdated(viewer.replica));
   EXPECT_LT(tree.triangleCount(), whole);
 
@@ -92,7 +92,7 @@ TEST(DrawnTree, APieceFallsBesideItsTree) {
       viewer.replica.layout(), viewer.replica.terrain(), 0, broken, 0);
   DrawnTree piece(viewer.replica, 0, Vec3::Zero(), falling);
   EXPECT_TRUE(piece.isPiece(broken.front()));
-  piece.setLevel(forest::GEOMETRY_LEVELS - 1, light, TreeLook());
+  piece.setLevels({forest::GEOMETRY_LEVELS - 1, {}}, light, TreeLook());
   EXPECT_EQ(tree.triangleCount() + piece.triangleCount(), whole);
   const auto lowest = [&] {
     double out = 1e9;

@@ -144,7 +144,7 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
   ASSERT_TRUE(replica.apply(update));
   const TreeSet tree_set = grown(replica, {0, 1, 2, 3});
   DrawnTree& tree = *tree_set.trees()[2];
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, tree_set.light(), TreeLook());
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}}, tree_set.light(), TreeLook());
   const Nanoseconds stamp = fromSeconds(3.3);
   TreeLook still;
   still.flutter = false;
@@ -169,7 +169,7 @@ TEST(DrawnTree, RestsWhereNothingMovesIt) {
   const TreeSet tree_set = grown(replica, {0});
   DrawnTree& tree = *tree_set.trees()[0];
   EXPECT_FALSE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));  // There is no mesh yet.
-  tree.setLevel(2, tree_set.light(), TreeLook());
+  tree.setLevels({2, {}}, tree_set.light(), TreeLook());
   EXPECT_TRUE(tree.move(replica, 1, wind::Instant(), TreeLook(), 100.0));
   EXPECT_FALSE(tree.move(replica, 2, wind::Instant(), TreeLook(), 100.0));
 }
@@ -184,7 +184,7 @@ TEST(DrawnTree, IsPaintedByState) {
   DrawnTree& tree = *tree_set.trees()[0];
   TreeLook look;
   look.colours = TreeColours::BY_STATE;
-  tree.setLevel(forest::GEOMETRY_LEVELS - 1, tree_set.light(), look);
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}}, tree_set.light(), look);
   forest::StateUpdate update;
   update.layout_hash = replica.layoutHash();
   forest::StateUpdate::Entry entry;

@@ -72,7 +72,8 @@ TEST_F(BentTree, LeafCardsLieInSquaresOnTheirBranches) {
     const Quat turn = pose.orientation *
                       Quat{leaf.rotation[0], leaf.rotation[1], leaf.rotation[2], leaf.rotation[3]};
     for (std::size_t c = 0; c < LEAF_CORNERS; ++c) {
-      const Vec3 in_square(mesh.outline[c][0] - 0.5f, mesh.outline[c][1], 0.0);
+      const LeafOutline& outline = mesh.outlineOf(i);
+      const Vec3 in_square(outline[c][0] - 0.5f, outline[c][1], 0.0);
       const Vec3 expected = at + static_cast<double>(leaf.size) * rotate(turn, in_square);
       ASSERT_LT(length(point(positions, 4 * i + c) - expected), 2.0 * TOLERANCE);
     }
@@ -82,7 +83,7 @@ TEST_F(BentTree, LeafCardsLieInSquaresOnTheirBranches) {
 // Returns the foot of the midrib from three corners of a card.
 Vec3 BentTree::footOf(const std::vector<float>& positions, std::size_t card) const {
   const auto corner = [&](std::size_t c) {
-    return Vec3(mesh.outline[c][0] - 0.5f, mesh.outline[c][1], 0.0);
+    return Vec3(mesh.outlineOf(card)[c][0] - 0.5f, mesh.outlineOf(card)[c][1], 0.0);
   };
   const Vec3 a = corner(0), u = corner(1) - a, v = corner(2) - a;
   const double area = u.x() * v.y() - u.y() * v.x();

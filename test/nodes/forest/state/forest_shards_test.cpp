@@ -51,8 +51,7 @@ TEST_F(ForestShardNodes, AreOneWorld) {
     moving += hash != 0;
   }
   EXPECT_GT(moving, 100u);
-  const Nanoseconds now = nodes_->whole_replica.replica().stamp();
-  spinUntil("both shards", [&] { return nodes_->replica.replica().stamp() == now; });
+  const Nanoseconds now = nodes_->settle();
   EXPECT_EQ(nodes_->replica.stateStatus(now).text, "In step: 2 shards");
   EXPECT_EQ(nodes_->replica.rivals(), "");
   const forest::ForestReplica &merged = nodes_->replica.replica(),
