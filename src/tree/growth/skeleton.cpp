@@ -8,7 +8,7 @@
 #include "core/math/math_batch.h"
 #include "core/math/noise.h"
 #include "core/math/random_batch.h"
-#include "tree/growth/limbs.h"
+#include "tree/growth/limb_growth.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 

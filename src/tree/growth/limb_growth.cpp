@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/growth/limbs.h"
+#include "tree/growth/limb_growth.h"
 
 #include <algorithm>
 #include <cmath>
