@@ -98,6 +98,8 @@ bool VegetationScanner::onSkyView(GetSkyView::Request& request, GetSkyView::Resp
     if (!request.header.stamp.isZero() && fromMsg(request.header.stamp) != clock_.stamp())
       throw InvalidInput("stamp is not that of the last tick; others are not kept",
                          FaultCode::NOT_AVAILABLE);
+    if (const std::string why = landscape_.rejectedLayout(); !why.empty())
+      throw InvalidInput(why, FaultCode::NOT_AVAILABLE);
     const std::uint64_t incomplete = landscape_.incomplete();
     response.views = sky_of_requests_.view(placesOf(request), clock_.stamp());
     if (landscape_.incomplete() > incomplete)

@@ -161,6 +161,18 @@ std::string LandscapeReplica::why() const {
   return out;
 }
 
+std::string LandscapeReplica::rejectedLayout() const {
+  const auto why = [](const char* topic, bool ready, const InputStatus& status) {
+    return !ready && status.rejected ? topic + (": " + status.text) : std::string();
+  };
+  for (const std::string& text :
+       {why("forest/layout", forest_.replica().ready(), forest_.layoutStatus()),
+        why("grass/layout", meadow_.ready(), meadow_.layoutStatus()),
+        why("canopy/layout", canopy_.replica() != nullptr, canopy_.layoutStatus())})
+    if (!text.empty()) return text;
+  return {};
+}
+
 std::string LandscapeReplica::rivals() const {
   return forest_.rivals() + meadow_.rivals() + canopy_.rivals() + crowd_.rivals() +
          near_crowd_.rivals();

@@ -42,6 +42,8 @@ class LandscapeReplica {
   std::uint64_t lost() const;
   /// Why states of forest and grass are ignored; empty if they are not, or if there are none.
   std::string why() const;
+  /// Why the only layout of forest, grass or plants that has come was rejected; empty if none was.
+  std::string rejectedLayout() const;
   /// Topics that have several publishers; empty if there are none.
   std::string rivals() const;
 

@@ -12,6 +12,7 @@ namespace vegetation_sim {
 struct InputStatus {
   bool good{false};
   std::string text;
+  bool rejected{false};  ///< the newest message was
 };
 
 /// An input that is silent for longer is reported, and people are removed.

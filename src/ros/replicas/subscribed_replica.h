@@ -69,7 +69,7 @@ class SubscribedReplica {
       status = take();
       return true;
     } catch (const std::exception& error) {
-      status = {false, std::string("Rejected a message: ") + error.what()};
+      status = {false, std::string("Rejected a message: ") + error.what(), true};
       if (options_.on_rejected) options_.on_rejected(input, error.what());
       return false;
     }

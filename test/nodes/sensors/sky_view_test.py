@@ -14,10 +14,10 @@ from std_msgs.msg import Header
 from vegetation_sim.msg import ErrorCode, SensorInterest, SkyView, SkyViews, WindPrimitive
 from vegetation_sim.srv import GetSkyView, SetWindPrimitive
 
-from forest_rig import RATE, Animator, TickClock, time_of
+from forest_rig import RATE, Animator, TickClock, start_node, stop, time_of
 from scan_rig import Mast, Scanner, cloud_of
 from waiting import wait_for
-from watched_node import Log
+from watched_node import Log, listens, serves
 
 START = 1000 * RATE
 RINGS, COLUMNS = 90, 720
@@ -152,6 +152,21 @@ class SkyViewTest(unittest.TestCase):
                 status = self.scanner.status()
                 return status.level == DiagnosticStatus.WARN and words in status.message
             wait_for(refusal, 'a warning with the words ' + words)
+
+    def test_a_scanner_of_another_world_knows_no_sky(self):
+        name = '/astray/vegetation_scanner'
+        process = start_node('vegetation_scanner', name, {'forest/layout': '/forest/layout'}, frame_id='elsewhere',
+                             lidar_frame='')
+        self.addCleanup(stop, process)
+        wait_for(lambda: listens(name, '/forest/layout') and listens(name, '/clock'), name)
+
+        def is_offered():
+            self.run_tick(CLEARING, CLEARING)
+            return serves(name + '/sky_view')
+        wait_for(is_offered, name + '/sky_view')
+        answer = rospy.ServiceProxy(name + '/sky_view', GetSkyView)(points=[Point(*UNDER_THE_OAK)])
+        self.assertEqual((answer.success, answer.error_code, answer.views), (False, ErrorCode.NOT_AVAILABLE, []))
+        self.assertIn("forest/layout: Rejected a message: frame_id = 'map'", answer.message)
 
     def test_a_missing_frame_is_reported(self):
         def warning():
