@@ -6,15 +6,14 @@
 #include <array>
 #include <cmath>
 
-#include "rviz/crowd/body_shape.h"
+#include "rviz/crowd/body_template.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double CLOTH = 0.72;  // factor of the colours, which sunlight makes brighter
-constexpr double EYES = 0.35;   // the same of the sockets of eyes
-constexpr std::size_t MOST_SIDES = 12;
+constexpr double BOUNCED = 0.3;  // share of skylight that reaches every place below trees
+constexpr double CLOTH = 0.72;   // factor of the colours, which sunlight makes brighter
 // Heights [pixel] above which tubes have all sides, half of them, and all rings.
 constexpr double FINE = 120.0, COARSE = 24.0, RINGS = 35.0;
 
@@ -33,12 +32,51 @@ Corner between(const Corner& a, const Corner& b, double share) {
 
 using Corners = std::array<Corner, MOST_SIDES>;
 
-/// Draws the tubes of a body.
-class TubeWriter {
+/// Moves of the bones from the pose of the template to that of a person.
+class SkinPose {
  public:
-  TubeWriter(const std::vector<BodyRing>& rings, const BodyStyle& style, const Daylight& daylight,
+  SkinPose(const crowd::Skeleton& skeleton, const Vec3& left, double height) {
+    static const BoneFrames REST = framesOf(formSkeleton(), Vec3::UnitY());
+    const BoneFrames now = framesOf(skeleton, left);
+    for (std::size_t i = 0; i < BONES; ++i) {
+      turns_[i] = now[i].axes * REST[i].axes.transpose();
+      scaled_[i] = height * turns_[i];
+      ways_[i] = now[i].origin - scaled_[i] * REST[i].origin;
+    }
+  }
+
+  Vec3 positionOf(const SkinVertex& vertex, const Vec3& rest) const {
+    const auto [first, second] = vertex.bones;
+    const Vec3 at = scaled_[first] * rest + ways_[first];
+    if (vertex.second <= 0.0) return at;
+    return at + vertex.second * (scaled_[second] * rest + ways_[second] - at);
+  }
+  Vec3 normalOf(const SkinVertex& vertex) const {
+    const auto [first, second] = vertex.bones;
+    const Vec3 out = turns_[first] * vertex.normal;
+    if (vertex.second <= 0.0) return out;
+    const Vec3 mixed = out + vertex.second * (turns_[second] * vertex.normal - out);
+    return mixed / std::max(1e-6, length(mixed));
+  }
+
+ private:
+  std::array<BoneAxes, BONES> turns_, scaled_;
+  std::array<Vec3, BONES> ways_;
+};
+
+/// Draws the skin of a body.
+class SkinWriter {
+ public:
+  SkinWriter(const std::vector<SkinRing>& rings, const SkinPose& pose,
+             const crowd::Clothes& clothes, const BodyStyle& style, const Daylight& daylight,
              const LightAt& light, grass::GrassMesh& mesh)
-      : rings_(rings), style_(style), daylight_(daylight), light_(light), mesh_(mesh) {}
+      : rings_(rings),
+        pose_(pose),
+        clothes_(clothes),
+        style_(style),
+        daylight_(daylight),
+        light_(light),
+        mesh_(mesh) {}
 
   void write() {
     const std::size_t count = rings_.size();
@@ -64,14 +102,14 @@ class TubeWriter {
 
   // A fine ring of a small body lies between its neighbours, so that nothing changes when it goes.
   Corners cornersOf(std::size_t i, std::size_t first, std::size_t end) const {
-    const Corners own = ellipse(i, first, end);
+    const Corners own = posed(i);
     if (!rings_[i].fine || style_.rings >= 1.0) return own;
     std::size_t before = i, after = i;
     while (before > first && rings_[before].fine) --before;
     while (after + 1 < end && rings_[after].fine) ++after;
     if (rings_[before].fine) before = after;
     if (rings_[after].fine) after = before;
-    const Corners a = ellipse(before, first, end), b = ellipse(after, first, end);
+    const Corners a = posed(before), b = posed(after);
     const double share = after == before ? 0.0 : double(i - before) / double(after - before);
     Corners out;
     for (std::size_t k = 0; k < sides(); ++k)
@@ -79,50 +117,62 @@ class TubeWriter {
     return out;
   }
 
-  // Slope of a radius along the tube.
-  double slope(std::size_t i, std::size_t first, std::size_t end, double BodyRing::*radius) const {
-    const BodyRing& a = rings_[i > first ? i - 1 : i];
-    const BodyRing& b = rings_[i + 1 < end ? i + 1 : i];
-    const double way = dot(b.centre - a.centre, rings_[i].along);
-    return way > 1e-6 ? std::clamp((b.*radius - a.*radius) / way, -4.0, 4.0) : 0.0;
-  }
-
-  Corners ellipse(std::size_t i, std::size_t first, std::size_t end) const {
-    const BodyRing& ring = rings_[i];
-    const double broader = slope(i, first, end, &BodyRing::broad);
-    const double deeper = slope(i, first, end, &BodyRing::deep);
-    const SharedLight::Shares shares = light_(ring.centre);
+  Corners posed(std::size_t i) const {
+    const SkinRing& ring = rings_[i];
+    const std::size_t stride = MOST_SIDES / sides();
+    const SkinVertex& any = ring.vertices.front();
+    const SharedLight::Shares shares = light_(pose_.positionOf(any, any.position));
     Corners out;
     for (std::size_t k = 0; k < sides(); ++k) {
-      const SinCos turn = sinCosTurns(static_cast<double>(k) / style_.sides);
-      const double front = -turn.sin;
-      const Vec3 facing = turn.cos * ring.deep * ring.across + turn.sin * ring.broad * ring.back;
-      const double steep = turn.cos * turn.cos * broader + turn.sin * turn.sin * deeper;
-      const Vec3 normal = facing / std::max(1e-9, length(facing)) - steep * ring.along;
-      const double nose = front > 0.95 ? ring.nose : 0.0;
-      const bool eye = ring.eyes && front > 0.7 && front < 0.95;
-      out[k] = {ring.centre + turn.cos * ring.broad * ring.across +
-                    (turn.sin * ring.deep - nose) * ring.back,
-                lit(normal / length(normal), shares,
-                    (eye ? EYES : CLOTH) * (turn.sin > 0.2 ? ring.behind : ring.colour))};
+      const SkinVertex& vertex = ring.vertices[k * stride];
+      Vec3 rest = vertex.position;
+      rest.y() *= 1.0 + vertex.girth * (clothes_.build - 0.5);
+      out[k] = {pose_.positionOf(vertex, rest), lit(pose_.normalOf(vertex), shares, vertex.open,
+                                                    CLOTH * vertex.shade * colourOf(vertex.cover))};
     }
     for (std::size_t k = 1; k < sides() && style_.odd < 1.0; k += 2)
       out[k] = between(between(out[k - 1], out[(k + 1) % sides()], 0.5), out[k], style_.odd);
     return out;
   }
 
-  Vec3 lit(const Vec3& normal, const SharedLight::Shares& shares, const Vec3& colour) const {
+  Vec3 lit(const Vec3& normal, const SharedLight::Shares& shares, double open,
+           const Vec3& colour) const {
     Vec3 out;
-    const double facing = shares.sun * std::max(0.0, 0.15 + 0.85 * dot(normal, daylight_.to_sun));
+    const double facing = shares.sun * (0.35 + 0.65 * open) *
+                          std::max(0.0, 0.12 + 0.88 * dot(normal, daylight_.to_sun));
     const auto up = static_cast<float>(0.5 + 0.5 * normal.z());
     for (std::size_t i = 0; i < 3; ++i) {
       const float around = daylight_.ground_light[i] * (1.f - up) + daylight_.zenith_light[i] * up;
       const double light =
-          static_cast<double>(daylight_.sun[i]) * facing + shares.sky * static_cast<double>(around);
+          static_cast<double>(daylight_.sun[i]) * facing +
+          (BOUNCED + (1.0 - BOUNCED) * shares.sky) * open * static_cast<double>(around);
       const auto axis = static_cast<int>(i);
       out[axis] = std::clamp(colour[axis] * light, 0.0, 1.0);
     }
     return out;
+  }
+
+  Vec3 colourOf(Cover cover) const {
+    switch (cover) {
+      case Cover::HAIR:
+        return clothes_.hair;
+      case Cover::SHIRT:
+        return clothes_.shirt;
+      case Cover::COLLAR:
+        return 0.55 * clothes_.shirt + 0.3 * Vec3::Ones();
+      case Cover::SLEEVE:
+        return clothes_.long_sleeves ? clothes_.shirt : clothes_.skin;
+      case Cover::BELT:
+        return 0.5 * clothes_.shoes + 0.15 * clothes_.trousers;
+      case Cover::TROUSERS:
+        return clothes_.trousers;
+      case Cover::SHOES:
+        return clothes_.shoes;
+      case Cover::SOLES:
+        return 0.5 * clothes_.shoes;
+      default:
+        return clothes_.skin;
+    }
   }
 
   void writeRing(const Corners& corners) {
@@ -151,7 +201,9 @@ class TubeWriter {
 
   std::size_t sides() const { return static_cast<std::size_t>(style_.sides); }
 
-  const std::vector<BodyRing>& rings_;
+  const std::vector<SkinRing>& rings_;
+  const SkinPose& pose_;
+  const crowd::Clothes& clothes_;
   const BodyStyle& style_;
   const Daylight& daylight_;
   const LightAt& light_;
@@ -172,9 +224,9 @@ BodyStyle bodyStyle(double pixels) {
 void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
                 const BodyStyle& style, const Daylight& daylight, const LightAt& light,
                 grass::GrassMesh& mesh) {
-  std::vector<BodyRing> rings;
-  shapeBody(skeleton, clothes, Vec3(style.left_x, style.left_y, 0.0), rings);
-  TubeWriter(rings, style, daylight, light, mesh).write();
+  const double height = limbOf(skeleton, crowd::Part::HEAD).radius / crowd::Proportions::HEAD;
+  const SkinPose pose(skeleton, Vec3(style.left_x, style.left_y, 0.0), height);
+  SkinWriter(bodyTemplate(clothes.long_hair), pose, clothes, style, daylight, light, mesh).write();
 }
 
 }  // namespace vegetation_sim::view

@@ -21,6 +21,8 @@ CrowdProperties::CrowdProperties(rviz::Display& display) {
   detail_ = addNumber("Detail", 1.f, "Factor of the size from which the detail of a body follows.",
                       0.01f, 100.f, display);
   shadows_ = addFlag("Shadows", true, "Draw shadows on the ground.", display);
+  contact_shadows_ = addFlag("Contact Shadows", true,
+                             "Darken ground and grass under feet and where shadows fall.", display);
   addRate(display, "People move");
   addScenery(display, "Draw grass under them, unless another display has a ground.");
 }
@@ -34,6 +36,7 @@ CrowdVisual::Options CrowdProperties::options() const {
   out.most_people = static_cast<std::size_t>(most_people_->getInt());
   out.detail = detail_->getFloat();
   out.shadows = shadows_->getBool();
+  out.contact_shadows = contact_shadows_->getBool();
   return out;
 }
 

@@ -23,7 +23,7 @@ class CrowdProperties : public SceneryProperties {
   rviz::RosTopicProperty* topic_;
   rviz::IntProperty* most_people_;
   rviz::FloatProperty* detail_;
-  rviz::BoolProperty* shadows_;
+  rviz::BoolProperty *shadows_, *contact_shadows_;
 };
 
 }  // namespace vegetation_sim::view

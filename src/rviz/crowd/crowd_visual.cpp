@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rviz/crowd/body_mesh.h"
 #include "rviz/render/batch.h"
@@ -19,6 +20,8 @@ constexpr double STILL = 1e-4;      // [m], [rad] a viewer moves without effect
 constexpr double LIFT = 0.02;       // [m] of shadows over the ground
 constexpr double LONGEST = 2.5;     // length of a shadow in heights
 constexpr std::uint8_t DARK = 150;  // alpha of a shadow
+// Strengths of contact shadows below feet and bodies, and of a body's shadow on grass.
+constexpr double FOOT_DARK = 0.6, BODY_DARK = 0.3, GRASS_DARK = 0.45;
 
 Vec3 placeOf(const SubscribedCrowd::Person& person) {
   return {person.walker.position.x, person.walker.position.y, person.ground};
@@ -33,7 +36,8 @@ CrowdVisual::CrowdVisual(Ogre::SceneNode& parent)
       shadow_material_(Material::Kind::SHADOWS, uniqueName("shadow_material"),
                        {shadow_texture_.name()}),
       bodies_(uniqueName("bodies"), body_material_.name(), 0),
-      shadows_(uniqueName("shadows"), shadow_material_.name(), Batch::LAST_RANK + 1) {
+      shadows_(uniqueName("shadows"), shadow_material_.name(), Batch::LAST_RANK + 1),
+      contacts_(parent) {
   node_->attachObject(&bodies_);
   node_->attachObject(&shadows_);
 }
@@ -47,6 +51,7 @@ void CrowdVisual::light(const Daylight& daylight, const Haze& haze) {
   daylight_ = daylight;
   body_material_.light(daylight, daylight.to_sun, haze);
   shadow_material_.light(daylight, daylight.to_sun, haze);
+  contacts_.light(daylight, haze);
   repaint();
 }
 
@@ -78,6 +83,7 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   forward_ = view.forward;
   body_mesh_.clear();
   shadow_mesh_.clear();
+  blobs_.clear();
   // Positions are relative to the first person: floats are exact enough far from the world origin.
   const Vec3 origin = crowd.people().empty() ? Vec3(Vec3::Zero()) : placeOf(crowd.people().front());
   body_mesh_.origin = shadow_mesh_.origin = origin;
@@ -87,9 +93,11 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   for (const Person* person : people) addPerson(*person, crowd, terrain, view, options);
   bodies_.fill(body_mesh_);
   shadows_.fill(shadow_mesh_);
+  contacts_.fill(std::move(blobs_), frame_, terrain);
   report_.people = crowd.people().size();
   report_.drawn = people.size();
-  report_.triangles = (body_mesh_.indices.size() + shadow_mesh_.indices.size()) / 3;
+  report_.triangles =
+      (body_mesh_.indices.size() + shadow_mesh_.indices.size()) / 3 + contacts_.triangleCount();
   ++report_.rebuilds;
 }
 
@@ -116,6 +124,37 @@ void CrowdVisual::addPerson(const Person& person, const SubscribedCrowd& crowd,
   };
   appendBody(skeleton, crowd::clothesOf(walker.id), style, daylight_, light, body_mesh_);
   if (options.shadows) addShadow(person, terrain, skeleton);
+  if (options.contact_shadows) addContacts(person, terrain, skeleton, options);
+}
+
+// Adds the shadows below the feet and the body, and for the grass that of the body in sunlight. The
+// terrain known here may differ from that of the message.
+void CrowdVisual::addContacts(const Person& person, const terrain::HeightMap& terrain,
+                              const crowd::Skeleton& skeleton, const Options& options) {
+  const double rise =
+      person.ground - terrain.height(person.walker.position.x, person.walker.position.y);
+  const auto add = [&](const std::optional<BlobShadow>& shadow) {
+    if (!shadow) return;
+    blobs_.push_back(*shadow);
+    blobs_.back().centre.z() += rise;
+  };
+  const auto box = [&](crowd::Part part, int side) {
+    const crowd::Limb& limb = limbOf(skeleton, part, side);
+    ShadowBox out = capsuleBox(limb.from, limb.to, limb.radius);
+    out.centre.z() -= rise;
+    return out;
+  };
+  for (int side = 0; side < 2; ++side)
+    add(contactShadow(box(crowd::Part::FOOT, side), FOOT_DARK, terrain));
+  const double height = person.walker.height;
+  const Vec3 foot(person.walker.position.x, person.walker.position.y, person.ground - rise);
+  add(contactShadow(capsuleBox(foot, foot, 0.16 * height), BODY_DARK, terrain));
+  if (!options.shadows) return;
+  const Vec3 top = foot + Vec3(0.0, 0.0, 0.9 * height);
+  std::optional<BlobShadow> body =
+      sunShadow(capsuleBox(foot, top, 0.08 * height), daylight_.to_sun, GRASS_DARK, terrain);
+  if (body) body->on_ground = false;
+  add(body);
 }
 
 // Adds a quad with a soft texture from the feet away from the sun.

@@ -9,7 +9,8 @@
 
 #include "crowd/body/body_skeleton.h"
 #include "ros/replicas/subscribed_crowd.h"
-#include "rviz/grass/grass_batch.h"
+#include "rviz/ground/blob_visual.h"
+#include "rviz/render/grass_batch.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
 #include "rviz/trees/tree_set.h"
@@ -23,14 +24,14 @@ struct CrowdReport {
   int rebuilds{0};  ///< number of meshes built
 };
 
-/// The OGRE objects of people, which it owns: bodies in one batch, shadows in another. Render
-/// thread only.
+/// The OGRE objects of people, which it owns: bodies in one batch, shadows in a second, contact
+/// shadows in a third. Render thread only.
 class CrowdVisual {
  public:
   struct Options {
     std::size_t most_people{500};
     float detail{1.f};  ///< factor of the size from which detail follows
-    bool shadows{true};
+    bool shadows{true}, contact_shadows{true};
   };
 
   /// @param parent node in the frame of the people.
@@ -56,12 +57,16 @@ class CrowdVisual {
                  const terrain::HeightMap& terrain, const View& view, const Options& options);
   void addShadow(const Person& person, const terrain::HeightMap& terrain,
                  const crowd::Skeleton& skeleton);
+  void addContacts(const Person& person, const terrain::HeightMap& terrain,
+                   const crowd::Skeleton& skeleton, const Options& options);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture shadow_texture_;
   Material body_material_, shadow_material_;
   GrassBatch bodies_, shadows_;
   grass::GrassMesh body_mesh_, shadow_mesh_;
+  BlobVisual contacts_;
+  std::vector<BlobShadow> blobs_;  // of contacts_, while they are collected
   Daylight daylight_;
   int drawn_{-1};  // SubscribedCrowd::changes()
   std::string frame_;

@@ -12,6 +12,9 @@ namespace {
 constexpr int GROUND_RANK = 1;       // the ground has floor and shadows of a forest
 constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground texture
 constexpr double GROUND_CELL = 3.0;  // [m] of the ground mesh
+// Radius of the contact shadow of a trunk: that of the trunk times a factor and some room [m].
+constexpr double TRUNK_SHADOW = 2.2, TRUNK_ROOM = 0.12;
+constexpr double TRUNK_DARK = 0.65;  // strength of it
 
 std::string describeTrees(const view::ForestReport& report) {
   std::string out = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
@@ -96,6 +99,7 @@ void ForestDisplay::light(const view::Daylight& daylight, const view::Haze& haze
   forest_->light(daylight, daylight.to_sun, haze);
   if (ground_) ground_->light(daylight, daylight.to_sun, haze);
   if (shadows_) shadows_->light(daylight, haze);
+  if (contacts_) contacts_->light(daylight, haze);
 }
 
 void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
@@ -109,6 +113,7 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   if (forest_->treeSet() == nullptr) return;
   shareLight();
   if (!properties_->ground()) return;
+  if (properties_->hasContactShadows()) makeContacts();
   const bool gives = givesGround(source_->replica().terrain());
   if (gives) makeGround();
   if (!gives || properties_->movesShadows()) updateShadows(stamp, view);
@@ -130,6 +135,7 @@ void ForestDisplay::shareLight() {
 void ForestDisplay::dropGround() {
   ground_.reset();
   shadows_.reset();
+  contacts_.reset();
 }
 
 void ForestDisplay::makeShadows() {
@@ -146,6 +152,25 @@ void ForestDisplay::makeShadows() {
     shadows_ = std::make_unique<view::ShadowVisual>(*scene_node_, tree_set, terrain, daylight);
   shadows_->light(daylight, properties_->hazeValues());
   shaded_ = forest_->treeSets();
+}
+
+void ForestDisplay::makeContacts() {
+  if (contacts_ && contacted_ == forest_->treeSets()) return;
+  std::vector<view::BlobShadow> shadows;
+  const terrain::HeightMap& terrain = source_->replica().terrain();
+  for (const auto& tree : forest_->treeSet()->trees()) {
+    const auto& branches = tree->tree().skeleton.branches;
+    if (branches.empty()) continue;
+    const double radius = branches.front().base_radius;
+    const Vec3& foot = tree->foot();
+    if (const auto shadow = view::contactShadow(
+            view::capsuleBox(foot, foot, TRUNK_ROOM + TRUNK_SHADOW * radius), TRUNK_DARK, terrain))
+      shadows.push_back(*shadow);
+  }
+  contacts_ = std::make_unique<view::BlobVisual>(*scene_node_);
+  contacts_->light(properties_->daylight(), properties_->hazeValues());
+  contacts_->fill(std::move(shadows), source_->frame(), terrain);
+  contacted_ = forest_->treeSets();
 }
 
 void ForestDisplay::makeGround() {

@@ -13,6 +13,7 @@
 #include "ros/replicas/subscribed_forest.h"
 #include "rviz/forest/forest_properties.h"
 #include "rviz/forest/forest_visual.h"
+#include "rviz/ground/blob_visual.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/ground/shadow_visual.h"
 #include "rviz/scenery/scenery_display.h"
@@ -48,6 +49,7 @@ class ForestDisplay : public SceneryDisplay {
  private:
   void makeGround();
   void makeShadows();
+  void makeContacts();
   void updateShadows(Nanoseconds stamp, const view::View& view);
   void shareLight();
   void takeGrabs(const GrabStatuses& message);
@@ -63,7 +65,9 @@ class ForestDisplay : public SceneryDisplay {
   std::unique_ptr<view::SharedLight> shared_light_;
   int lit_{-1};  // tree set whose light is shared
   int layouts_{0};
-  int grounded_{-1}, shaded_{-1};  // tree sets for which ground and shadows were made
+  std::unique_ptr<view::BlobVisual> contacts_;  // around trunks
+  // Tree sets for which ground, shadows and contact shadows were made.
+  int grounded_{-1}, shaded_{-1}, contacted_{-1};
 };
 
 }  // namespace vegetation_sim

@@ -46,6 +46,9 @@ void ForestProperties::addLook(rviz::Display& display) {
   moving_shadows_ = new rviz::BoolProperty(
       "Moving Shadows", false, "Shadows on the ground follow the trees near the viewer.", &display,
       SLOT(updateGround()), &display);
+  contact_shadows_ =
+      new rviz::BoolProperty("Contact Shadows", true, "Darken the ground around trunks.", &display,
+                             SLOT(updateGround()), &display);
   colours_ = new rviz::EnumProperty("Colours", "natural",
                                     "By state: branches are painted by their joint: red moves, "
                                     "green is between moving and fixed, "
@@ -58,6 +61,10 @@ void ForestProperties::addLook(rviz::Display& display) {
 
 SubscribedForest::Topics ForestProperties::topics() const {
   return {layout_->getTopicStd(), wind_->getTopicStd(), state_->getTopicStd()};
+}
+
+bool ForestProperties::hasContactShadows() const {
+  return contact_shadows_->getBool();
 }
 
 bool ForestProperties::movesShadows() const {

@@ -30,6 +30,7 @@ class ForestProperties : public SceneryProperties {
   std::string grabsTopic() const;
   ForestVisual::Options options() const;
   bool movesShadows() const;
+  bool hasContactShadows() const;
 
  private:
   void addTopics(rviz::Display& display);
@@ -37,7 +38,7 @@ class ForestProperties : public SceneryProperties {
 
   rviz::RosTopicProperty *layout_, *wind_, *state_, *grabs_;
   rviz::IntProperty *triangles_, *most_trees_;
-  rviz::BoolProperty *leaves_, *flutter_, *moving_shadows_, *by_bough_;
+  rviz::BoolProperty *leaves_, *flutter_, *moving_shadows_, *contact_shadows_, *by_bough_;
   rviz::EnumProperty* colours_;
 };
 

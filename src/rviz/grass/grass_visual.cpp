@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/grass/blade_shade.h"
+#include "rviz/ground/blob_visual.h"
 #include "rviz/ground/meadow_texture.h"
 #include "rviz/render/batch.h"
 
@@ -158,12 +160,15 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
   for (grass::GrassMesh* mesh : {&blade_mesh_, &strip_mesh_, &layer_mesh_}) mesh->clear();
   report_.blades = report_.bladed = report_.stripped = 0;
   reach_ = 0.f;
+  const BladeShade shade(law, BlobVisual::shadowsOf(node_->getCreator(), meadow.frame()));
   for (const grass::TileView& tile_view : sorted) {
     grass::TileMotion motion;
     const grass::Tile tile = levels_.tileAt(tile_view, air, meadow.tread(), stamp, patch_, motion);
     motion.model = meadow.layout().blade_model;
     if (tile_view.morph.blades && options.blades) {
+      const std::size_t first = blade_mesh_.vertexCount();
       addBlades(tile, motion, tile_view, eye, options);
+      shade.darken(tile_view.column, tile_view.row, first, blade_mesh_);
       const double distance = std::sqrt(squareDistance(tile_view, law, eye));
       reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.slide)));
     }

@@ -9,7 +9,7 @@
 
 #include "grass/lod/meadow_lod.h"
 #include "ros/replicas/subscribed_meadow.h"
-#include "rviz/grass/grass_batch.h"
+#include "rviz/render/grass_batch.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
 #include "rviz/trees/tree_set.h"

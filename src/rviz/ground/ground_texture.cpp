@@ -15,7 +15,12 @@ constexpr double ROOM = 14.0;         // [m] margin around the trees
 constexpr double LAND_BORDER = 0.12;  // share of the edge that fades to plain grass
 constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
 constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
-constexpr Rgba LITTER{0.30f, 0.25f, 0.16f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
+constexpr Rgba HERBS{0.21f, 0.33f, 0.13f, 1.f}, BARE{0.42f, 0.35f, 0.24f, 1.f};
+constexpr Rgba LITTER{0.30f, 0.24f, 0.15f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
+constexpr Rgba HUMUS{0.17f, 0.13f, 0.09f, 1.f};
+constexpr Rgba OCHRE_LEAF{0.52f, 0.36f, 0.16f, 1.f}, PALE_LEAF{0.56f, 0.47f, 0.30f, 1.f};
+constexpr float RELIEF = 0.30f;      // height of hummocks [m], of which only the light is drawn
+constexpr double SLOPE_STEP = 0.08;  // [m] over which their slope is measured
 
 float ramp(double low, double high, double x) {
   return static_cast<float>(smoothStep((x - low) / (high - low)));
@@ -60,20 +65,54 @@ Window windowAround(const Plot& plot, int edge, const Extent& extent) {
           above(extent.high.y() - plot.y) - row};
 }
 
+namespace {
+
+// Returns the colour of grass with herbs, dry places and tufts.
+Rgba grassColour(const Noise& noise, float x, float y, float fine) {
+  const float broad = noise.fractal(x / 23.f, y / 23.f, 3);
+  Rgba out = mix(GRASS_DEEP, GRASS_FRESH, ramp(0.3, 0.7, broad));
+  out = mix(out, GRASS_DRY, 0.6f * ramp(0.52, 0.85, noise.fractal(x / 11.f, y / 11.f + 30.f, 3)));
+  out = mix(out, HERBS, 0.7f * ramp(0.56, 0.66, noise.fractal(x / 3.7f + 21.f, y / 3.7f, 3)));
+  out = mix(out, times(out, {0.74f, 0.80f, 0.66f, 1.f}), ramp(0.4, 0.7, fine));
+  const float tufts = 0.7f + 0.6f * noise.fractal(x / 0.7f, y / 0.7f + 3.f, 2);
+  return times(out, {tufts, tufts, tufts, 1.f});
+}
+
+// Returns the colour of humus and moss with fallen leaves on them.
+Rgba floorColour(const Noise& noise, float x, float y) {
+  const float patches = noise.fractal(x / 5.f, y / 5.f + 11.f, 4);
+  Rgba out = mix(LITTER, MOSS, ramp(0.46, 0.66, patches));
+  out = mix(out, HUMUS, 0.8f * ramp(0.55, 0.35, noise.fractal(x / 1.7f + 40.f, y / 1.7f, 3)));
+  const Rgba leaf = mix(OCHRE_LEAF, PALE_LEAF, ramp(0.3, 0.7, noise.smooth(x / 0.31f, y / 0.29f)));
+  const float lying = ramp(0.55, 0.75, noise.smooth(x / 0.17f + 5.f, y / 0.17f));
+  const float many = ramp(0.72, 0.38, noise.fractal(x / 4.3f, y / 4.3f + 50.f, 3));
+  return mix(out, leaf, 0.75f * lying * many);
+}
+
+// Returns the normal of ground with hummocks.
+Vec3 roughNormal(const Noise& noise, double x, double y, const Vec3& normal) {
+  const auto height = [&](double px, double py) {
+    return static_cast<double>(RELIEF * noise.fractal(static_cast<float>(px) / 3.1f + 13.f,
+                                                      static_cast<float>(py) / 3.1f, 4));
+  };
+  const double here = height(x, y);
+  const Vec3 out = normal - Vec3((height(x + SLOPE_STEP, y) - here) / SLOPE_STEP,
+                                 (height(x, y + SLOPE_STEP) - here) / SLOPE_STEP, 0.0);
+  return out / length(out);
+}
+
+}  // namespace
+
 Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint) {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
-  const float broad = noise.fractal(fx / 23.f, fy / 23.f, 3);
   const float fine = noise.fractal(fx / 2.3f + 7.f, fy / 2.3f, 3);
-  Rgba grass = mix(GRASS_DEEP, GRASS_FRESH, ramp(0.3, 0.7, broad));
-  grass =
-      mix(grass, GRASS_DRY, 0.6f * ramp(0.52, 0.85, noise.fractal(fx / 11.f, fy / 11.f + 30.f, 3)));
-  grass = times(mix(grass, times(grass, {0.78f, 0.84f, 0.7f, 1.f}), ramp(0.4, 0.7, fine)), tint);
-  const double edge = shelter + 0.35 * (static_cast<double>(fine) - 0.5);
-  const float covered = 0.92f * ramp(0.25, 0.7, edge);
-  if (covered <= 0.f) return grass;
-  const Rgba floor =
-      mix(LITTER, MOSS, ramp(0.42, 0.68, noise.fractal(fx / 5.f, fy / 5.f + 11.f, 4)));
-  return mix(grass, floor, covered);
+  const float bare = ramp(0.62, 0.72, noise.fractal(fx / 6.1f + 50.f, fy / 6.1f + 8.f, 4));
+  Rgba out = times(grassColour(noise, fx, fy, fine), tint);
+  out = mix(out, times(BARE, {0.8f + 0.4f * fine, 0.8f + 0.4f * fine, 0.8f + 0.4f * fine, 1.f}),
+            0.8f * bare);
+  const double edge = shelter + 0.5 * (static_cast<double>(fine) - 0.5);
+  const float covered = 0.95f * ramp(0.15, 0.5, edge);
+  return covered > 0.f ? mix(out, floorColour(noise, fx, fy), covered) : out;
 }
 
 Rgba openLight(const Daylight& daylight, const Vec3& normal) {
@@ -109,7 +148,7 @@ Image groundPicture(const Plot& plot, int edge, const Window& window, const Shad
               ? 1.0
               : static_cast<double>(shade.sun[static_cast<std::size_t>(i * window.columns + j)]);
       const auto sun = static_cast<float>(1.0 - inside * (1.0 - lit));
-      const Vec3 normal = terrain.normal(x, y);
+      const Vec3 normal = roughNormal(noise, x, y, terrain.normal(x, y));
       const auto facing = static_cast<float>(std::max(0.0, dot(normal, daylight.to_sun)));
       const Rgba colour = groundColour(noise, x, y, 1.0 - sky, tint);
       Rgba& pixel = out.at(j, window.rows - 1 - i);

@@ -15,6 +15,7 @@ constexpr Rgba SOIL{0.33f, 0.27f, 0.18f, 1.f};
 constexpr Rgba STUBBLE{0.52f, 0.56f, 0.26f, 1.f}, HAY{0.62f, 0.56f, 0.31f, 1.f};
 constexpr double HALF_HIDDEN = 0.12;   // cut grass that hides half of what is below [kg/m^2]
 constexpr float UNDER = 0.48f;         // share of light that closed grass blocks
+constexpr double THINNING = 0.45;      // share of the grass that is missing in thin places
 constexpr double MEADOW_BORDER = 3.0;  // [m] over which the edge fades into the surroundings
 
 Vec3 widen(const Rgba& c) {
@@ -102,16 +103,26 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
   const float fine = noise_.fractal(fx / 0.6f, fy / 0.6f, 3) - 0.5f;
   const float patches = noise_.fractal(fx / 4.f + 9.f, fy / 4.f, 2) - 0.5f;
-  Rgba land = groundColour(noise_, x, y, 0.0, tint_);
-  for (std::size_t i = 0; i < 3; ++i) land[i] *= open[i];
+  const auto litter = static_cast<float>(  // dead grass
+      smoothStep((static_cast<double>(noise_.smooth(fx / 0.23f, fy / 0.27f)) - 0.45) / 0.3));
   const double east = law.origin_x + law.resolution * map_.tileColumns();
   const double north = law.origin_y + law.resolution * map_.tileRows();
   const double inside =
       std::min(std::min(x - law.origin_x, east - x), std::min(y - law.origin_y, north - y));
+  const auto own_share = static_cast<float>(smoothStep(inside / MEADOW_BORDER));
+  Rgba land{};
+  if (own_share < 1.f) {
+    land = groundColour(noise_, x, y, 0.0, tint_);
+    for (std::size_t i = 0; i < 3; ++i) land[i] *= open[i];
+  }
   if (inside <= 0.0) return land;
   grass::Features f = map_.at(x, y);
   if (!masks_.empty()) f.colour = grass::averageColour(f.colour, masks_, x, y);
-  const auto cover = static_cast<float>(saturate(1.6 * f.density / full_));
+  const auto thin = static_cast<float>(
+      THINNING *
+      smoothStep((static_cast<double>(noise_.fractal(fx / 1.9f + 5.f, fy / 1.9f, 3)) - 0.52) /
+                 0.2));
+  const auto cover = static_cast<float>(saturate(1.6 * f.density / full_)) * (1.f - thin);
   grass::BladePiece piece;
   const auto down = static_cast<float>(ground.crush);
   piece.flat = 0.12f + 0.7f * down * down;
@@ -127,7 +138,7 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
     const float bleached = 1.f + down * (i == 0 ? 0.10f : i == 1 ? 0.02f : 0.0f);
     const float grass = (static_cast<float>(own[k]) * light.factor[i] * bleached + light.shine[i]) *
                         lightness * tint_[i];
-    const float soil = SOIL[i] * open[i] * (1.f + 0.6f * fine);
+    const float soil = mix(SOIL, HAY, 0.5f * litter)[i] * open[i] * (1.f + 0.6f * fine);
     out[i] = soil + (grass - soil) * cover;
   }
   const auto cut = static_cast<float>(ground.cut);
@@ -137,7 +148,7 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
     out[i] += (STUBBLE[i] * open[i] * lightness * tint_[i] - out[i]) * 0.55f * cut * cover;
     out[i] += (HAY[i] * open[i] * lightness * tint_[i] - out[i]) * hay;
   }
-  out = mix(land, out, static_cast<float>(smoothStep(inside / MEADOW_BORDER)));
+  out = mix(land, out, own_share);
   out[3] = 1.f - UNDER * cover * (1.f - 0.55f * down) * (1.f - 0.8f * cut);
   return out;
 }

@@ -66,6 +66,7 @@ void SceneryDisplay::stop() {
   viewer_.reset();
   air_.reset();
   sky_.reset();
+  robot_shadows_.reset();
   close();
   for (auto* ownership : {&ground_ownership_, &sky_ownership_, &fog_ownership_, &viewer_ownership_})
     ownership->reset();
@@ -99,6 +100,7 @@ bool SceneryDisplay::givesGround(const terrain::HeightMap& terrain) {
     ground_ownership_ = ownership(view::Shared::GROUND, terrain.hash(), ground_rank_);
   }
   gives_ground_ = ground_ownership_->holds();
+  if (gives_ground_) terrain_ = &terrain;
   return gives_ground_;
 }
 
@@ -176,7 +178,18 @@ void SceneryDisplay::drawAt(Nanoseconds stamp) {
   const std::optional<view::View> view = view::viewOf(*context_, *scene_node_);
   if (!view) return;
   if (sky_) sky_->follow(view->eye.position);
+  terrain_ = nullptr;
   draw(stamp, *view);
+  drawRobotShadows(*frame);
+}
+
+// They lie on the ground of this display.
+void SceneryDisplay::drawRobotShadows(const std::string& frame) {
+  if (terrain_ == nullptr || !gives_ground_ || !properties().hasRobotShadows())
+    return robot_shadows_.reset();
+  if (!robot_shadows_) robot_shadows_ = std::make_unique<view::RobotShadows>(*scene_node_);
+  robot_shadows_->update(*context_, frame, *terrain_, properties().daylight(),
+                         properties().hazeValues());
 }
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {

@@ -9,11 +9,12 @@
 #include <string>
 
 #include "ros/time/clock_jumps.h"
-#include "rviz/ground/sky_visual.h"
 #include "rviz/render/fog.h"
 #include "rviz/scenery/budget_status_source.h"
+#include "rviz/scenery/robot_shadows.h"
 #include "rviz/scenery/scene_ownership.h"
 #include "rviz/scenery/scenery_properties.h"
+#include "rviz/scenery/sky_visual.h"
 #include "rviz/scenery/status_board.h"
 #include "rviz/scenery/viewer_publisher.h"
 #include "rviz/trees/tree_set.h"
@@ -85,6 +86,7 @@ class SceneryDisplay : public rviz::Display {
   void watchTime(Nanoseconds stamp);
   void drawAt(Nanoseconds stamp);
   void publishViewer();
+  void drawRobotShadows(const std::string& frame);
   void showStatus(Nanoseconds stamp);
   std::unique_ptr<view::SceneOwnership> ownership(view::Shared thing, std::uint64_t key = 0,
                                                   int rank = 0) const;
@@ -92,10 +94,12 @@ class SceneryDisplay : public rviz::Display {
   int ground_rank_;
   view::GovernorKeys governor_keys_;
   bool open_{false}, gives_ground_{false};
+  const terrain::HeightMap* terrain_{nullptr};  // of the ground, during an update
   std::unique_ptr<view::SceneOwnership> ground_ownership_, sky_ownership_, fog_ownership_,
       viewer_ownership_;
   std::unique_ptr<view::SkyVisual> sky_;
   std::unique_ptr<view::Fog> air_;
+  std::unique_ptr<view::RobotShadows> robot_shadows_;
   std::unique_ptr<view::ViewerPublisher> viewer_;
   std::unique_ptr<view::GovernorSource> governor_;
   view::StatusBoard board_;

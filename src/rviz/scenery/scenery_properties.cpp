@@ -51,6 +51,9 @@ void SceneryProperties::addScenery(rviz::Display& display, const char* ground_he
   ground_ = flag("Ground", ground_help, SLOT(updateGround()));
   ground_colour_ = new rviz::ColorProperty("Colour", GRASS, "Colour of grass.", ground_,
                                            SLOT(updateGround()), &display);
+  robot_shadows_ = new rviz::BoolProperty("Robot Shadows", on,
+                                          "Draw the shadows of robot models and markers on it.",
+                                          ground_, SLOT(updateGround()), &display);
   sky_ = flag("Sky", "Draw a sky with clouds.", SLOT(updateSky()));
   azimuth_ = number("Sun Azimuth", 215.f, "Where the sun stands: 0 is east, 90 north [deg].",
                     -360.f, 360.f, sky_, SLOT(updateSun()), display);
@@ -86,6 +89,9 @@ void SceneryProperties::addRate(rviz::Display& display, const std::string& who) 
 
 bool SceneryProperties::ground() const {
   return ground_->getBool();
+}
+bool SceneryProperties::hasRobotShadows() const {
+  return robot_shadows_->getBool();
 }
 bool SceneryProperties::sky() const {
   return sky_->getBool();

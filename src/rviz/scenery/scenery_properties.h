@@ -24,6 +24,7 @@ namespace vegetation_sim::view {
 class SceneryProperties {
  public:
   bool ground() const;
+  bool hasRobotShadows() const;
   bool sky() const;
   bool haze() const;
   bool publishesViewer() const;
@@ -56,7 +57,7 @@ class SceneryProperties {
  private:
   void addViewer(rviz::Display& display, bool on);
 
-  rviz::BoolProperty *ground_, *sky_, *haze_, *publish_viewer_;
+  rviz::BoolProperty *ground_, *robot_shadows_, *sky_, *haze_, *publish_viewer_;
   rviz::ColorProperty *ground_colour_, *haze_colour_;
   rviz::FloatProperty *azimuth_, *elevation_, *haze_start_, *haze_end_, *haze_most_, *rate_;
   rviz::StringProperty* viewer_topic_;

@@ -9,5 +9,7 @@ namespace vegetation_sim::view {
 /// Paints the shadow of an upright body: white, with its strength in alpha; dark at the feet, which
 /// are at the top, and soft at the head.
 Image shadowPicture();
+/// Paints a soft disc: white, with its strength (1 - r^2)^2 in alpha.
+Image blobPicture();
 
 }  // namespace vegetation_sim::view

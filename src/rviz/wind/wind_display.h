@@ -6,9 +6,9 @@
 #include <string>
 
 #include "ros/replicas/subscribed_wind.h"
-#include "rviz/grass/grass_batch.h"
 #include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
+#include "rviz/render/grass_batch.h"
 #include "rviz/scenery/scenery_display.h"
 #include "rviz/wind/wind_properties.h"
 

@@ -3,6 +3,7 @@
 #include <vegetation_sim/AgentStates.h>
 #include <vegetation_sim/CrowdView.h>
 #include <vegetation_sim/ForestLayout.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <limits>
 
@@ -10,14 +11,17 @@
 #include "ros/conversions/crowd_conversions.h"
 #include "rviz/crowd/crowd_display.h"
 #include "rviz/rigs/display_checks.h"
+#include "rviz/rigs/display_rig.h"
 
 namespace vegetation_sim {
 namespace {
 
-/// rviz and a crowd that the rig moves.
-class CrowdRig : public ViewRig {
+/// rviz, a crowd that the rig moves, and the trees of DisplayRig.
+class CrowdRig : public DisplayRig {
  public:
   CrowdRig() { startNode(); }
+
+  ForestDisplay* addForest() { return DisplayRig::addDisplay(); }
 
   /// Starts a node that publishes the people. A node that already runs is stopped.
   void startNode() {
@@ -111,6 +115,118 @@ TEST_F(CrowdDisplayTest, DrawsPeopleOnGrassUnderASky) {
   ASSERT_TRUE(rig.until([&] { return display->drawn().people == 0; }));
   rig.frames(3);
   EXPECT_GT(difference(with, rig.picture()), 1.0);
+}
+
+// Returns the mean brightness of an image at pixels, 0 to 255.
+double brightnessAt(const std::vector<std::uint8_t>& image,
+                    const std::vector<std::size_t>& pixels) {
+  double sum = 0.0;
+  for (const std::size_t pixel : pixels)
+    for (std::size_t k = 0; k < 3; ++k) sum += image[3 * pixel + k];
+  return sum / (3.0 * static_cast<double>(std::max<std::size_t>(1, pixels.size())));
+}
+
+// The same people are seen with trees around them and without. Pixels of people are those that
+// change, in both scenes, when the people go.
+TEST_F(CrowdDisplayTest, PeopleUnderTreesAreDarker) {
+  display->subProp("Shadows")->setValue(false);
+  display->subProp("Contact Shadows")->setValue(false);
+  display->subProp("Most People")->setValue(8);
+  rig.lookAt(0.9f, 0.1, 9.0);
+  std::vector<std::vector<std::uint8_t>> people, empty;
+  ForestDisplay* forest = nullptr;
+  for (const bool trees : {false, true}) {
+    if (trees) {
+      forest::Layout layout = forest::gridLayout(4, 5.0);
+      for (forest::TreeSeed& seed : layout.trees) seed.position -= Vec3(7.5, 7.5, 0.0);
+      rig.publishForest(layout);
+      forest = rig.addForest();
+      ASSERT_TRUE(rig.until([&] { return forest->drawn().trees == 16; }));
+    }
+    for (const int count : {8, 0}) {
+      rig.gather(count);
+      rig.report();
+      rig.publishState();
+      ASSERT_TRUE(
+          rig.until([&] { return display->drawn().people == static_cast<std::size_t>(count); }));
+      (count > 0 ? people : empty).push_back(steadyPicture(rig));
+    }
+  }
+  std::vector<std::size_t> pixels;
+  for (std::size_t i = 0; 3 * i + 2 < people[0].size(); ++i) {
+    const auto change = [&](std::size_t scene) {
+      int out = 0;
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+        out += std::abs(int{people[scene][k]} - int{empty[scene][k]});
+      return out;
+    };
+    if (change(0) > 45 && change(1) > 45) pixels.push_back(i);
+  }
+  const double open = brightnessAt(people[0], pixels), shaded = brightnessAt(people[1], pixels);
+  std::cout << pixels.size() << " pixels of people: " << open << " in the open, " << shaded
+            << " under trees\n";
+  EXPECT_GT(pixels.size(), 500u);
+  EXPECT_LT(shaded, 0.75 * open);
+  rig.remove(forest);
+  rig.publishForest(forest::Layout());
+}
+
+// With the property, the ground is darker next to the feet; nothing is brighter.
+TEST_F(CrowdDisplayTest, FeetDarkenTheGround) {
+  rig.lookAt(0.f, 1.2, 5.0);
+  display->subProp("Shadows")->setValue(false);
+  display->subProp("Contact Shadows")->setValue(false);
+  const std::vector<std::uint8_t> without = steadyPicture(rig);
+  display->subProp("Contact Shadows")->setValue(true);
+  const std::vector<std::uint8_t> with = steadyPicture(rig);
+  int darker = 0, brighter = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    darker += int{with[i]} < int{without[i]} - 15 ? 1 : 0;
+    brighter += int{with[i]} > int{without[i]} + 5 ? 1 : 0;
+  }
+  std::cout << darker << " darker values, " << brighter << " brighter\n";
+  EXPECT_GT(darker, 500);
+  EXPECT_LT(brighter, 20);
+}
+
+// A box that a marker draws darkens the ground of the display that owns it. The box is seen from
+// above and hides the same ground in both pictures.
+TEST_F(CrowdDisplayTest, RobotsAndMarkersDarkenTheGround) {
+  rviz::Display* markers = rig.manager().createDisplay("rviz/MarkerArray", "Markers", true);
+  markers->subProp("Marker Topic")->setValue("boxes");
+  const ros::Publisher publisher =
+      rig.nodeHandle().advertise<visualization_msgs::MarkerArray>("boxes", 1, true);
+  visualization_msgs::MarkerArray message;
+  message.markers.resize(1);
+  visualization_msgs::Marker& box = message.markers.front();
+  box.header.frame_id = "map";
+  box.type = visualization_msgs::Marker::CUBE;
+  box.pose.position.z = 0.3;
+  box.pose.orientation.w = 1.0;
+  box.scale.x = box.scale.y = box.scale.z = 0.6;
+  box.color.r = box.color.a = 1.f;
+  const std::vector<std::uint8_t> empty = steadyPicture(rig);
+  publisher.publish(message);
+  rig.lookAt(0.f, 1.2, 5.0);
+  ASSERT_TRUE(rig.until([&] {
+    rig.frames(1);
+    return rig.largestChange(empty, rig.picture()) > 20.0;
+  }));
+  display->subProp("Ground")->subProp("Robot Shadows")->setValue(false);
+  const std::vector<std::uint8_t> without = steadyPicture(rig);
+  display->subProp("Ground")->subProp("Robot Shadows")->setValue(true);
+  const std::vector<std::uint8_t> with = steadyPicture(rig);
+  int darker = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) darker += int{with[i]} < int{without[i]} - 15;
+  std::cout << darker << " darker values\n";
+  EXPECT_GT(darker, 500);
+  // One that shines through casts none.
+  box.color.a = 0.3f;
+  publisher.publish(message);
+  const std::vector<std::uint8_t> glass = steadyPicture(rig);
+  display->subProp("Ground")->subProp("Robot Shadows")->setValue(false);
+  EXPECT_LT(rig.largestChange(glass, steadyPicture(rig)), 1.0);
+  rig.remove(markers);
 }
 
 TEST_F(CrowdDisplayTest, PeopleWalk) {

@@ -82,6 +82,26 @@ TEST_F(ForestDisplayTest, ShadowsMoveByAProperty) {
   EXPECT_EQ(levels, display->drawn().per_level);
 }
 
+// The camera looks at the foot of a tree from above.
+TEST_F(ForestDisplayTest, TrunksDarkenTheGroundAroundThem) {
+  ASSERT_TRUE(drawn());
+  rviz::ViewController& view = *rig.manager().getViewManager()->getCurrent();
+  view.lookAt(9.f, 9.f, 0.f);
+  view.subProp("Pitch")->setValue(0.5);
+  view.subProp("Distance")->setValue(2.5);
+  const std::vector<std::uint8_t> with = steadyPicture(rig);
+  display->subProp("Contact Shadows")->setValue(false);
+  const std::vector<std::uint8_t> without = steadyPicture(rig);
+  int darker = 0, brighter = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    darker += int{with[i]} < int{without[i]} - 8 ? 1 : 0;
+    brighter += int{with[i]} > int{without[i]} + 3 ? 1 : 0;
+  }
+  std::cout << darker << " darker values, " << brighter << " brighter\n";
+  EXPECT_GT(darker, 2000);
+  EXPECT_LT(brighter, 20);
+}
+
 // S2-16: trees are built from the layout at run time and are visible.
 TEST_F(ForestDisplayTest, DrawsAForestWithGroundAndSky) {
   ASSERT_TRUE(drawn());

@@ -1,11 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/ground/sky_visual.h"
+#include "rviz/scenery/sky_visual.h"
 
 #include <OgreRenderQueue.h>
 #include <OgreSceneManager.h>
 
-#include "tree/mesh/skin.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/grass/grass_batch.h"
+#include "rviz/render/grass_batch.h"
 
 #include <OgreCamera.h>
 #include <OgreHardwareBufferManager.h>
