@@ -5,7 +5,9 @@
 # the same scene in one node each on the host of the master. Walkers tread over borders, branches
 # are held, pushed and cut through the wrong shard. The hashes of the shards have to add up to those
 # of the single nodes at each tick, the people of two crowds and the points of a lidar have to be those
-# of one. Prints a table. If the kernel has no netem, a program delays and loses packets.
+# of one, and two displays have to draw the same picture. Prints a table. If the kernel has no netem, a
+# program delays and loses packets. Without the program rviz_frames (scripts/build.sh benches) there
+# are no displays.
 # usage: scripts/test_shards.sh [TICKS [DELAY [LOSS]]]  (600 ticks, 1ms and 0% each way)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -24,7 +26,7 @@ MASTER=10.77.0.1
 ticks=${1:-600} delay=${2:-1ms} loss=${3:-0%}
 mount -t tmpfs none /run
 mkdir /run/netns
-WORK=$(mktemp -d)
+. "$ROOT/scripts/launching.sh"
 trap 'rm -rf "$WORK"' EXIT
 unset ROS_HOSTNAME
 export ROS_MASTER_URI=http://$MASTER:11311 ROS_IP=$MASTER ROS_HOME=$WORK/ros
@@ -100,7 +102,23 @@ start 0 wind_broadcaster wind_broadcaster "_scenario:=$scene"
 for namespace in / /whole/; do
   start 0 vegetation_scanner scanner "__ns:=$namespace" wind:=/wind _frame_id:=map
 done
-python3 test/nodes/shards/drive_hosts.py "$ticks" "$HOSTS" || {
+
+# usage: start_display_of HOST NAMESPACE NAME. Starts a display that draws when the clock has ended.
+start_display_of() {
+  start "$1" rviz_frames "$3" "__ns:=$2" wind:=/wind "$WORK/hosts.rviz" --settle 1 --seconds 1 \
+    --after "$WORK/end" --picture "$WORK/$3.png"
+}
+displays=()
+if [ -x "$DEVEL/lib/vegetation_sim/rviz_frames" ]; then
+  start_display
+  displays=("$WORK")
+  sed 's/^\( *Distance:\).*/\1 34/' rviz/demo.rviz >"$WORK/hosts.rviz"
+  start_display_of 4 / shards
+  start_display_of 0 /whole/ whole
+else
+  say 'without displays: rviz_frames is not built'
+fi
+python3 test/nodes/shards/drive_hosts.py "$ticks" "$HOSTS" "${displays[@]}" || {
   tail -n 5 "$WORK"/*.log >&2
   fail 'the shards are not one world'
 }

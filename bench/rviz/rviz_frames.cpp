@@ -4,7 +4,8 @@
 // frames per second it draws, of how many triangles, in what time of all processors, and how much
 // levels of detail change pictures as the camera moves away.
 // usage: rviz_frames FILE.rviz [--view FILE.rviz] [--settle N] [--seconds N] [--picture FILE]
-//        [--dolly FACTOR]
+//        [--after FILE] [--dolly FACTOR]
+// The picture is taken once the file of --after exists.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -23,6 +24,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -37,8 +39,9 @@ namespace bench = vegetation_sim::bench;
 
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double LISTENING = 5.0;          // [s] for each topic of markers
-constexpr int BLOCK = 16;  // [pixel] edge of the blocks over which differences are averaged
-constexpr int STEPS = 6;   // number of steps of the camera
+constexpr int BLOCK = 16;        // [pixel] edge of the blocks over which differences are averaged
+constexpr int WAITING_RATE = 3;  // [frame/s]
+constexpr int STEPS = 6;         // number of steps of the camera
 constexpr int FRAMES_A_STEP = 20;
 constexpr int STILL_FRAMES = 15;     // equal frames after which levels of detail count as settled
 constexpr double STILL_TIME = 60.0;  // [s] that this may take
@@ -62,6 +65,13 @@ class Frames {
         "%.1f frames a second of %.0f triangles, %.0f in the picture; %.0f ms of processor time a "
         "frame\n",
         rate, triangles, seen, 1e3 * used / std::max(count, 1.0));
+  }
+
+  /// Draws slowly, which leaves the processor to other programs, until a file exists.
+  void waitForFile(const char* file) {
+    view_.limitRate(WAITING_RATE);
+    while (!std::filesystem::exists(file)) run(0.5);
+    view_.drawFrames(2 * WAITING_RATE);
   }
 
   void write(const char* file) { view_.window().writeContentsToFile(file); }
@@ -185,10 +195,11 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "rviz_frames", ros::init_options::AnonymousName);
   const QApplication application(argc, argv);
   double settling = 20.0, seconds = 10.0, factor = 0.0;  // settling: [s] until everything is drawn
-  const char *view = argc > 1 ? argv[1] : "", *picture = nullptr;
+  const char *view = argc > 1 ? argv[1] : "", *picture = nullptr, *awaited = nullptr;
   for (int i = 2; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--view") == 0) view = argv[i + 1];
     if (std::strcmp(argv[i], "--picture") == 0) picture = argv[i + 1];
+    if (std::strcmp(argv[i], "--after") == 0) awaited = argv[i + 1];
     if (std::strcmp(argv[i], "--settle") == 0) settling = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--dolly") == 0) factor = std::atof(argv[i + 1]);
@@ -196,7 +207,7 @@ int main(int argc, char** argv) {
   if (argc < 2) {
     std::fprintf(stderr,
                  "usage: rviz_frames FILE.rviz [--view FILE.rviz] [--settle N] [--seconds N] "
-                 "[--picture FILE] [--dolly FACTOR]\n");
+                 "[--picture FILE] [--after FILE] [--dolly FACTOR]\n");
     return 2;
   }
   // without a graphics card anti-aliasing halves the rate
@@ -205,6 +216,7 @@ int main(int argc, char** argv) {
   if (!frames.load(argv[1], view)) return 1;
   frames.run(settling);
   frames.measure(seconds);
+  if (awaited != nullptr) frames.waitForFile(awaited);
   if (picture != nullptr) frames.write(picture);
   const bool rested = factor <= 0.0 || frames.dolly(factor);
   std::fflush(stdout);

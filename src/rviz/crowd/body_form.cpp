@@ -15,7 +15,8 @@ using P = crowd::Proportions;
 using Kind = FormTube::Kind;
 
 constexpr double HIP = P::THIGH + P::SHANK + P::ANKLE;  // height of the hips
-constexpr double ARM_OUT = 0.40;                        // sine of the angle of the arms
+constexpr double ARM_OUT = 0.25;                        // sine of the angle of the arms
+constexpr double ARM_DROP = 0.018;  // from the top of the shoulder, where skeletons have the joint
 
 // From the hips up the spine. The shirt hangs over the trousers.
 const FormRing TRUNK[] = {{-0.055, 0.030, 0.034, 0.000, Cover::TROUSERS, true},
@@ -146,7 +147,7 @@ BodyForm::BodyForm(bool long_hair) {
     tubes_.push_back({Kind::LONG_HAIR, 1, Vec3(-0.034, 0.0, P::NECK), z, y, x, listOf(LONG_HAIR)});
   for (int side = 0; side < 2; ++side) {
     const Vec3 down = armDirection(side);
-    tubes_.push_back({Kind::ARM, side, onSide(side, P::SHOULDER_HALF, P::SHOULDER), down,
+    tubes_.push_back({Kind::ARM, side, onSide(side, P::SHOULDER_HALF, P::SHOULDER - ARM_DROP), down,
                       cross(x, down), x, listOf(ARM)});
     tubes_.push_back({Kind::LEG, side, onSide(side, P::HIP_HALF, HIP), -z, y, x, listOf(LEG)});
     tubes_.push_back({Kind::SHOE, side, onSide(side, P::HIP_HALF, P::SOLE) - P::FOOT_BACK * x, x, y,

@@ -9,7 +9,7 @@ prints a table.
 Then the link of shard 1 is down for 5 s of wall time while the clock goes on, without treads and
 requests.
 
-usage: drive_hosts.py TICKS SHARDS"""
+usage: drive_hosts.py TICKS SHARDS [FOLDER]   with a folder of the pictures of two displays"""
 import subprocess
 import sys
 import threading
@@ -20,6 +20,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from vegetation_sim.msg import AgentStates, CrowdPart
 from vegetation_sim.srv import GetTree
 
+from display_pictures import DisplayPictures
 from forest_rig import RATE, time_of
 from scan_rig import cloud_of
 from sharded_world import FIRST, Requests, World
@@ -112,7 +113,8 @@ def main():
     ticks, shards = int(sys.argv[1]), int(sys.argv[2])
     rospy.init_node('drive_hosts')
     people = People()
-    world = World(shards, others=OTHERS)
+    pictures = DisplayPictures(sys.argv[3]) if len(sys.argv) > 3 else None
+    world = World(shards, others=OTHERS + (2 if pictures else 0))
     people.wait_for_links()
     for _ in range(5):
         world.show_frames()
@@ -148,6 +150,10 @@ def main():
     common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if begun < s < last)
     alike = [s for s in common if cloud_of(world.clouds[0][s]).tobytes() == cloud_of(world.clouds[1][s]).tobytes()]
     print('%-10s %8d %8d' % ('clouds', len(common), len(alike)))
+    if pictures:
+        different, alike_pictures = pictures.compare()
+        print('pictures of two displays: %.3f %% of the pixels differ' % (100.0 * different))
+        good = good and alike_pictures
     print('%d requests through other shards; %.1f ms per tick' % (requests.sent, 1000.0 * seconds / ticks))
     good = good and len(common) > 0 and alike == common and requests.sent > 0
     sys.exit(0 if good else 1)

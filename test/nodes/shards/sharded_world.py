@@ -115,7 +115,7 @@ class World:
     def show_frames(self):
         part = max(0, self.tick - self.begin) / 300.0
         places = {'robot': (3.0 * math.sin(2.0 * part), 1.2 * math.cos(1.3 * part), 1.0),
-                  'lidar': (-8.0 + 4.0 * part, 0.3, 1.5)}
+                  'lidar': (-8.0 * math.cos(1.2 * part), 0.3, 1.5)}
         message = TFMessage()
         for name, (x, y, z) in places.items():
             frame = TransformStamped(header=Header(stamp=self.stamp(1), frame_id='map'), child_frame_id=name)
