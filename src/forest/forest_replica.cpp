@@ -92,13 +92,16 @@ bool ForestReplica::apply(const StateUpdate& update) {
   return part.in_sequence;
 }
 
-// Returns the part of the shard of a message. The number of shards is fixed while one is in step.
+// Returns the part of the shard of a message. The number of shards is fixed while one is in step
+// and heard: a landscape that is started again with another number is followed once the old one is
+// silent.
 ForestReplica::Part& ForestReplica::choosePart(const StateUpdate& update) {
   const Shard shard{update.shard, std::max<std::uint32_t>(1, update.shards)};
   Faults faults;
   check(shard, faults);
-  const bool is_fixed =
-      std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_sequence; });
+  const bool is_fixed = std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+    return part.in_sequence && !isSilentShard(part.stamp, update.stamp);
+  });
   if (is_fixed && shard.count != shards())
     faults.add("state: shards = " + std::to_string(shard.count) + ", but other messages have " +
                std::to_string(shards()));

@@ -111,6 +111,32 @@ TEST(ForestReplica, TracksEachShard) {
   EXPECT_EQ(replica.stamp(), REPLICA_START);
 }
 
+// Nodes that are started again with another number of shards are followed once the old ones are
+// silent.
+TEST(ForestReplica, FollowsAnotherNumberOfShardsAfterSilence) {
+  ForestReplica replica;
+  replica.setLayout(gridLayout(4, 10.0), flatTerrain());
+  ASSERT_TRUE(replica.apply(ofShard(replica, 0)));
+  StateUpdate update = ofShard(replica, 3);
+  update.shards = 4;
+  update.base = LevelState::settled(3);
+  update.stamp += SHARD_SILENCE;
+  EXPECT_THROW(replica.apply(update), InvalidInput);
+  update.stamp += 1;
+  ASSERT_TRUE(replica.apply(update)) << replica.why();
+  EXPECT_EQ(replica.shards(), 4u);
+  const TreeOwners owners(replica.layout(), {3, 4});
+  for (std::uint32_t tree = 0; tree < 16; ++tree)
+    EXPECT_EQ(replica.levelOf(tree).level, owners.owns(tree) ? 3 : 0) << tree;
+  // A first message from a far time does not fix the number either.
+  replica.forgetState();
+  StateUpdate late = ofShard(replica, 0);
+  late.stamp += 100 * SHARD_SILENCE;
+  ASSERT_TRUE(replica.apply(late));
+  EXPECT_TRUE(replica.apply(update));
+  EXPECT_EQ(replica.shards(), 4u);
+}
+
 TEST(ForestReplica, RejectsShardsThatDoNotFit) {
   ForestReplica replica;
   replica.setLayout(gridLayout(4, 10.0), flatTerrain());

@@ -17,7 +17,7 @@ class TreeOwners;
 /// Rebuilds the forest of forest_animator from messages: layout, wind and state in, the pose of
 /// every branch out, with equal values. A forest in shards has as many series of messages, which
 /// are tracked one by one and change the trees of their shard only. Messages set the number of
-/// shards while none is in step, as after setLayout() and forgetState().
+/// shards while none is in step, as after setLayout() and forgetState(), or all are silent.
 class ForestReplica {
  public:
   /// When the fine modes of trees are computed that are in a message for the first time; it takes

@@ -6,17 +6,27 @@
 #include <vector>
 
 #include "vegetation_sim/core/config/faults.h"
+#include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
-/// Maximum number of processes that share a landscape.
-constexpr std::uint32_t MOST_SHARDS = 4096;
+/// Maximum number of processes that share a landscape: as many requests go to all of them at once.
+constexpr std::uint32_t MOST_SHARDS = 256;
+/// A shard that is silent for longer stands still for others, and no longer says how many there
+/// are.
+constexpr Nanoseconds SHARD_SILENCE = 3 * NANOSECONDS_PER_SECOND;
 
 /// The share of a landscape that one process animates. Of a count of 1 it is all of it.
 struct Shard {
   std::uint32_t index{0};  ///< below `count`
   std::uint32_t count{1};  ///< 1 to MOST_SHARDS
 };
+
+/// Whether a shard that was last heard at `last` is silent at a stamp. A `last` that is as much
+/// later is a stamp of another run of the clock.
+inline bool isSilentShard(Nanoseconds last, Nanoseconds stamp) {
+  return stamp - last > SHARD_SILENCE || last - stamp > SHARD_SILENCE;
+}
 
 /// Adds a fault for each number out of range.
 void check(const Shard& shard, Faults& faults);

@@ -237,8 +237,9 @@ TreadReplica::Part& TreadReplica::choosePart(const TreadUpdate& update, const Tr
   const Shard shard{update.shard, std::max<std::uint32_t>(1, update.shards)};
   Faults faults;
   check(shard, faults);
-  const bool is_fixed =
-      std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_sequence; });
+  const bool is_fixed = std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+    return part.in_sequence && !isSilentShard(part.stamp, update.stamp);
+  });
   if (is_fixed && shard.count != shards())
     faults.add("state: shards = " + std::to_string(shard.count) + ", but other messages have " +
                std::to_string(shards()));

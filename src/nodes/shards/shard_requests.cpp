@@ -11,7 +11,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::uint32_t THREADS = 4;           // that answer requests
-constexpr int MOST_CALLS = 256;                // of other nodes at once, from this process
+constexpr int MOST_CALLS = MOST_SHARDS;        // of other nodes at once, from this process
 constexpr int ATTEMPTS = 3;                    // to connect
 constexpr std::chrono::milliseconds POLL{20};  // of stop()
 

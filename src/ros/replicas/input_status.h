@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "vegetation_sim/core/math/time.h"
+#include "core/config/shard.h"
 
 namespace vegetation_sim {
 
@@ -16,7 +16,7 @@ struct InputStatus {
 };
 
 /// An input that is silent for longer is reported, and people are removed.
-constexpr Nanoseconds SILENCE = 3 * NANOSECONDS_PER_SECOND;
+constexpr Nanoseconds SILENCE = SHARD_SILENCE;
 
 /// Returns the status at `now` of an input whose newest message has this stamp: a warning if it is
 /// older than SILENCE.

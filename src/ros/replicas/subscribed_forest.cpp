@@ -44,7 +44,10 @@ bool SubscribedForest::accepts(const ForestState& message) {
 
 void SubscribedForest::apply(const ForestState& message) {
   receive("forest/state", state_status_, [&]() -> InputStatus {
-    if (replica_.apply(fromMsg(message))) return {true, "In step"};
+    const std::uint32_t shards = replica_.shards();
+    const bool is_in_step = replica_.apply(fromMsg(message));
+    if (replica_.shards() != shards) shard_statuses_.clear();
+    if (is_in_step) return {true, "In step"};
     return {false, "Waiting for a key frame: " + replica_.why()};
   });
   if (replica_.shards() > 1 && message.shard < replica_.shards())

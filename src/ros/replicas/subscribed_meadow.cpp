@@ -135,7 +135,14 @@ void SubscribedMeadow::receiveUpdate(const char* input, const GrassState& messag
     if (!ready()) return {false, "Waiting for a layout"};
     if (update.layout_hash != layout_hash_)
       return {false, "Waiting: state belongs to another layout"};
+    const std::uint32_t shards = replica_.shards();
     part.in_step = replica_.apply(update, *tread_);
+    if (replica_.shards() != shards) {
+      parts_.clear();
+      shard_statuses_.clear();
+    }
+    if (parts_.empty()) first_heard_ = update.stamp;
+    newest_ = update.stamp;
     const bool is_other_ground = parts_[update.shard].discs != part.discs;
     parts_[update.shard] = part;
     if (!part.in_step) return {false, "Waiting for a key frame: " + replica_.why()};
@@ -155,11 +162,16 @@ InputStatus SubscribedMeadow::stateStatus(Nanoseconds now) const {
   });
 }
 
+bool SubscribedMeadow::isSilent(std::uint32_t shard) const {
+  return isSilentShard(parts_.count(shard) > 0 ? replica_.stampOf(shard) : first_heard_, newest_);
+}
+
 Nanoseconds SubscribedMeadow::stamp() const {
   Nanoseconds out = 0;
-  if (parts_.size() != replica_.shards()) return out;
-  for (const auto& [shard, part] : parts_) {
-    if (!part.in_step) return 0;
+  for (std::uint32_t shard = 0; shard < replica_.shards(); ++shard) {
+    if (isSilent(shard)) continue;
+    const auto part = parts_.find(shard);
+    if (part == parts_.end() || !part->second.in_step) return 0;
     const Nanoseconds last = replica_.stampOf(shard);
     out = out == 0 ? last : std::min(out, last);
   }
@@ -170,7 +182,7 @@ bool SubscribedMeadow::covers(const Vec3& centre, double radius, Nanoseconds sta
   const Nanoseconds last = this->stamp();
   return last != 0 && secondsBetween(last, stamp) <= FRESH &&
          std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) {
-           return part.second.discs.empty() ||
+           return part.second.discs.empty() || isSilent(part.first) ||
                   vegetation_sim::covers(part.second.discs,
                                          {centre.x(), centre.y(), radius + REACH});
          });

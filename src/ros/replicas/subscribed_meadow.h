@@ -83,7 +83,8 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   const InputStatus& windStatus() const { return wind_.status(); }
   /// Returns the status of the states, of all shards. It names those that are not in use.
   InputStatus stateStatus(Nanoseconds now) const;
-  /// Stamp of the last update of the shard that is farthest behind; 0 if updates are ignored.
+  /// Stamp of the last update of the shard that is farthest behind, of those that are not silent:
+  /// the ground of a silent one stays as it is. 0 if updates are ignored.
   Nanoseconds stamp() const;
   /// Returns whether all tracks within `radius` [m] of a place are known at `stamp`.
   bool covers(const Vec3& centre, double radius, Nanoseconds stamp) const;
@@ -101,6 +102,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   void receiveUpdate(const char* input, const GrassState& message,
                      const std::function<std::vector<InterestArea>()>& discs);
   void notePressed(const grass::TreadDelta& treads);
+  bool isSilent(std::uint32_t shard) const;
   bool hasNear() const { return near_subscriber_.getNumPublishers() > 0; }
 
   grass::Layout layout_;
@@ -112,7 +114,8 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   SubscribedWind wind_;
   int layouts_{0}, changes_{0};
   std::set<std::pair<int, int>> pressed_;
-  std::map<std::uint32_t, Part> parts_;  // by shard
+  std::map<std::uint32_t, Part> parts_;     // by shard
+  Nanoseconds first_heard_{0}, newest_{0};  // stamps of updates in step
   DelayBuffer<boost::shared_ptr<const NearGrass>> delayed_near_;
   std::function<void()> subscribe_state_;  // null without a topic
   ros::Subscriber near_subscriber_;

@@ -112,8 +112,8 @@ class ForestParameters(Ranges, RefusingNode):
 
     def test_a_shard_that_cannot_be_is_refused(self):
         for shard, text in (
-                ({'count': 0}, 'shard: count = 0 is outside 1 to 4096'),
-                ({'count': 4097}, 'shard: count = 4097 is outside 1 to 4096'),
+                ({'count': 0}, 'shard: count = 0 is outside 1 to 256'),
+                ({'count': 257}, 'shard: count = 257 is outside 1 to 256'),
                 ({'index': -1}, 'shard: index = -1 is outside 0 to 4095'),
                 ({'index': 2, 'count': 2},
                  'shard: index = 2 is outside 0 to 1, because count = 2'),
