@@ -9,6 +9,7 @@
 # program delays and loses packets. Without the program rviz_frames (scripts/build.sh benches) there
 # are no displays.
 # usage: scripts/test_shards.sh [TICKS [DELAY [LOSS]]]  (600 ticks, 1ms and 0% each way)
+# KEEP=FOLDER keeps logs and pictures.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -27,7 +28,7 @@ ticks=${1:-600} delay=${2:-1ms} loss=${3:-0%}
 mount -t tmpfs none /run
 mkdir /run/netns
 . "$ROOT/scripts/launching.sh"
-trap 'rm -rf "$WORK"' EXIT
+trap '[ -n "${KEEP:-}" ] && cp -r "$WORK" "$KEEP"; rm -rf "$WORK"' EXIT
 unset ROS_HOSTNAME
 export ROS_MASTER_URI=http://$MASTER:11311 ROS_IP=$MASTER ROS_HOME=$WORK/ros
 ip link set lo up
@@ -112,7 +113,7 @@ displays=()
 if [ -x "$DEVEL/lib/vegetation_sim/rviz_frames" ]; then
   start_display
   displays=("$WORK")
-  sed 's/^\( *Distance:\).*/\1 34/' rviz/demo.rviz >"$WORK/hosts.rviz"
+  sed 's/^\( *Distance:\).*/\1 24/; s/^\( *Fixed Frame:\).*/\1 map/' rviz/demo.rviz >"$WORK/hosts.rviz"
   start_display_of 4 / shards
   start_display_of 0 /whole/ whole
 else

@@ -10,10 +10,10 @@ from rosgraph_msgs.msg import Clock
 DEADLINE = 60.0  # [s] of wall time; only a test that fails waits this long
 
 
-def wait_for(condition, what):
+def wait_for(condition, what, seconds=DEADLINE):
     """Returns the first true value of `condition()`. Fails after the deadline."""
     pause = threading.Event()
-    end = time.monotonic() + DEADLINE
+    end = time.monotonic() + seconds
     while time.monotonic() < end:
         value = condition()
         if value:

@@ -11,7 +11,8 @@ from waiting import wait_for
 NAMES = ('shards', 'whole')
 STEP = 24  # of 255: pixels of a colour that differs by more count as different
 PLANTS = 30.0  # least standard deviation of the colours of a picture that has plants
-MOST_DIFFERENT = 0.01  # of all pixels
+MOST_DIFFERENT = 0.002  # of all pixels
+PATIENCE = 300.0  # [s] until displays have drawn what they have received
 
 
 class DisplayPictures:
@@ -40,5 +41,5 @@ class DisplayPictures:
                 return False
             return True
 
-        wait_for(is_whole, path)
+        wait_for(is_whole, path, PATIENCE)
         return out[-1]
