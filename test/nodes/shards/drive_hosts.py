@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives the scene of scripts/test_shards.sh tick by tick: a lidar and a robot cross borders of
 shards, walkers tread, and requests go through the wrong shard. Compares the sums of the hashes of
-the shards with the hashes of the single nodes, and the people of two crowds with those of one, and
-prints a table.
+the shards with the hashes of the single nodes, the forces on a body and a gripper, and the people of two crowds with
+those of one, and prints a table.
 
 Then the link of shard 1 is down for 5 s of wall time while the clock goes on, without treads and
 requests.
@@ -17,45 +17,20 @@ import time
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from vegetation_sim.msg import AgentStates, CrowdPart
 from vegetation_sim.srv import GetTree
 
+from compared_outputs import Forces, People
 from display_pictures import DisplayPictures
 from forest_rig import RATE, time_of
 from scan_rig import cloud_of
 from sharded_world import FIRST, Requests, World
 from waiting import wait_for
-from watched_node import Log, listens
 
 WARM_UP = 1.0  # clouds are compared after this time [s]
 CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
 
 
-CROWDS, OTHERS = 2, 7  # shards of the crowd; nodes beside forests and grass
-
-
-class People:
-    """The people of the crowds in shards and of the single one."""
-
-    def __init__(self):
-        self._logs = [Log(topic, AgentStates) for topic in ('/agents', '/whole/agents')]
-        self._parts = Log('/agents/parts', CrowdPart)
-
-    def wait_for_links(self):
-        for log in (*self._logs, self._parts):
-            wait_for(log.connected, log.topic)
-        wait_for(lambda: all(listens('/crowd_%d' % i, '/agents/border') for i in range(CROWDS)), 'borders')
-        wait_for(lambda: listens('/crowd_0', '/agents/parts'), 'parts')
-
-    def compare(self, stamp):
-        """Waits for the people of the last tick. Returns the number of ticks at which both have people,
-        of those at which these are equal, and of people who have come to shard 1."""
-        divided, whole = ({m.header.stamp: m for m in (log.wait_for_stamp(stamp), *log.messages)}
-                          for log in self._logs)
-        both = set(divided) & set(whole)
-        equal = [s for s in both if divided[s].hash == whole[s].hash and divided[s].agents == whole[s].agents]
-        ids = [{agent.id for agent in message.people.agents} for message in self._parts.messages]
-        return len(both), len(equal), len(set().union(*ids) - ids[0])
+OTHERS = 7  # nodes beside forests and grass
 
 
 class CutLink:
@@ -112,10 +87,11 @@ def pass_partition(world, requests):
 def main():
     ticks, shards = int(sys.argv[1]), int(sys.argv[2])
     rospy.init_node('drive_hosts')
-    people = People()
+    people, forces = People(), Forces()
     pictures = DisplayPictures(sys.argv[3]) if len(sys.argv) > 3 else None
     world = World(shards, others=OTHERS + (2 if pictures else 0))
     people.wait_for_links()
+    forces.wait_for_links()
     for _ in range(5):
         world.show_frames()
         world.run_tick()
@@ -145,6 +121,9 @@ def main():
     both, equal, moved = people.compare(world.stamp())
     good = good and both >= ticks + CALM + AFTER and equal == both and moved > 0
     print('%-10s %8d %8d, %d people have come to shard 1' % ('people', both, equal, moved))
+    both, equal, touches = forces.compare()
+    good = good and both >= ticks + CALM + AFTER and equal == both and min(touches) > 0
+    print('%-10s %8d %8d, %d on bodies and %d on grippers' % ('forces', both, equal, *touches))
     # The first sweeps come before all shards know where the lidars are. Without a link trees stand still.
     begun = time_of(FIRST) + rospy.Duration(WARM_UP)
     common = sorted(s for s in set(world.clouds[0]) & set(world.clouds[1]) if begun < s < last)

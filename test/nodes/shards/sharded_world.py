@@ -114,7 +114,9 @@ class World:
 
     def show_frames(self):
         part = max(0, self.tick - self.begin) / 300.0
-        places = {'robot': (3.0 * math.sin(2.0 * part), 1.2 * math.cos(1.3 * part), 1.0),
+        angle = 2.0 * part
+        places = {'robot': (1.45 * math.cos(angle), 1.45 * math.sin(angle), 1.0),  # through the trunks of HANDS
+                  'gripper': (0.2 * math.sin(angle), 0.2 * math.cos(angle), 1.9),
                   'lidar': (-8.0 * math.cos(1.2 * part), 0.3, 1.5)}
         message = TFMessage()
         for name, (x, y, z) in places.items():
@@ -160,13 +162,15 @@ class Requests:
 
     def act(self, age):
         """Acts at the tick of this age, in a cycle of 100 ticks."""
-        phase, hand = age % 100, HANDS[age // 100 % len(HANDS)]
+        phase, cycle = age % 100, age // 100
+        hand, by_frame = HANDS[cycle % len(HANDS)], cycle % 2 == 1
         stamp = self.world.stamp(AHEAD)
         if phase == 10:
-            target = in_map(hand[0] + 0.15, hand[1] + 0.1, 1.9)
+            target = dict(frame='gripper', keep_offset=True) if by_frame else dict(
+                target=in_map(hand[0] + 0.15, hand[1] + 0.1, 1.9))
             self.held.append([a.id for a in self.send(
-                'forest', 'grab', Grab, nearest=True, point=in_map(*hand, 1.8), target=target, stamp=stamp)])
-        elif phase == 30:
+                'forest', 'grab', Grab, nearest=True, point=in_map(*hand, 1.8), stamp=stamp, **target)])
+        elif phase == 30 and not by_frame:
             self.send('forest', 'move_grab', MoveGrab, id=self.held[-1], stamp=stamp,
                       target=in_map(hand[0] - 0.15, hand[1] + 0.2, 1.9))
         elif phase == 45:
