@@ -28,7 +28,13 @@ measure() {
     { tail -n 20 "$WORK/errors.log" >&2; fail 'the measurement did not end'; }
 }
 
-for shards in 1 2 4 8; do measure "$tiles" "$walkers" "$shards"; done
+for shards in 1 2 4 8; do measure "$tiles" "$walkers" "$shards"; done | tee "$WORK/rows"
+awk '/ms of processor time/ { sum[$1] += $4 } END { for (n = 2; n <= 8; n *= 2)
+  printf "%d shards need %.2f times the processor time of one\n", n, sum[n] / sum[1] }' "$WORK/rows"
 echo 'One display and one lidar, in the world and in one of a quarter the size:'
-measure "$tiles" "$walkers" 2 "$area" 1 "$range"
-measure $((tiles / 4)) $((walkers / 4)) 2 $((area / 4)) 1 "$range"
+for part in 1 4; do
+  measure $((tiles / part)) $((walkers / part)) 2 $((area / part)) 1 "$range"
+done | tee "$WORK/rows"
+awk '/ display: | lidar: / { name = $5; sub(":", "", name); if (name in first)
+  printf "%s: %.3f times the bytes of the smaller world\n", name, first[name] / $6
+  else first[name] = $6 }' "$WORK/rows"
