@@ -47,6 +47,9 @@ class SavedNode : public NodeBase {
   virtual void tick(std::int64_t tick) = 0;
   /// Applies an event to the simulation. @throws InvalidInput, and then nothing has changed.
   virtual void apply(Event& event) = 0;
+  /// Puts the live events of a tick into the order in which they are applied: by default they are
+  /// in that of their arrival.
+  virtual void arrange(std::vector<Event>&) const {}
 
   /// Hash of what the scenario and the parameters fix.
   virtual std::uint64_t sceneHash() const = 0;
@@ -86,6 +89,7 @@ class SavedNode : public NodeBase {
   /// Applies the events of a tick in order, and publishes them unless this is a replay.
   void applyInputs(Nanoseconds stamp) {
     std::vector<Event> events = inputs_.take(stamp);
+    if (!options_.replay) arrange(events);
     if (recovers_) events = std::exchange(recovered_, {});
     JournalRecord done{stamp, {}};
     for (Event& event : events) {

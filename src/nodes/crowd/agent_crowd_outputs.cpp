@@ -93,6 +93,7 @@ void AgentCrowd::publishMotions() {
 
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
   if (options_.tread == Treading::NONE) return;
+  stamp = clock_.grid().timeOf(clock_.grid().tickAt(stamp) + options_.tread_ahead);
   for (const crowd::Walker& walker : crowd_.walkers()) {
     if (options_.tread == Treading::BODY)
       treadOfBody(walker, stamp);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/grass/grass_field.h"
 
+#include <algorithm>
+
 #include "nodes/base/node_factory.h"
 
 #include "core/config/field_values.h"
@@ -94,6 +96,18 @@ void GrassField::apply(GrassEvent& event) {
       break;
     default:
       applyToGround(event);
+  }
+}
+
+void GrassField::arrange(std::vector<GrassEvent>& events) const {
+  const auto is_tread = [](const GrassEvent& event) { return event.kind == GrassEvent::TREAD; };
+  for (auto first = events.begin(); first != events.end();) {
+    first = std::find_if(first, events.end(), is_tread);
+    const auto last = std::find_if_not(first, events.end(), is_tread);
+    std::stable_sort(first, last, [](const GrassEvent& a, const GrassEvent& b) {
+      return a.tread.source < b.tread.source;
+    });
+    first = last;
   }
 }
 

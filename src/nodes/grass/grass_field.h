@@ -62,6 +62,9 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   // Time.
   void tick(std::int64_t tick) override;
   void apply(GrassEvent& event) override;
+  /// Successive treads are sorted by their sources: all shards apply those of one tick in the same
+  /// order, from whichever nodes and however late they come.
+  void arrange(std::vector<GrassEvent>& events) const override;
   void applyToGround(const GrassEvent& event);
   void applyTuning(GrassTuning tuning);
   void resetGround();

@@ -17,6 +17,7 @@ BAD = {
     'tf_budget': (-1, 'tf_budget = -1 is outside 0 to 10000'),
     'frame_wait': (-1.0, 'frame_wait = -1 s is outside 0 to 60'),
     'tread': ('hands', 'tread'),
+    'tread_ahead': (61, 'tread_ahead = 61 is outside 0 to 60'),
     'tread_radius': (-1.0, 'tread_radius = -1 m is outside 0 to 2'),
     'trunks': ('square', 'trunks'),
     'most_trunks': (-5, 'most_trunks = -5'),

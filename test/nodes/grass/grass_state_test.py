@@ -128,6 +128,20 @@ class GrassState(unittest.TestCase):
         self.assertLess(values.resistance[track], 20.0)
         self.assertGreaterEqual(values.age[track], 0.0)
 
+    def test_treads_of_a_tick_do_not_depend_on_the_order_of_their_arrival(self):
+        stamp = time_of(self.clock.tick + 5)
+        for source, x in (('late', 4.0), ('early', 4.1), ('late', 4.2), ('middle', 4.3)):
+            message = step(source, x, 4.0)
+            message.header.stamp, message.header.frame_id = stamp, 'map'
+            self.feet.send(message)
+        self.clock.run(6, self.grass)
+
+        def treads():
+            return [(e.tread.source, e.tread.position.x) for e in self.grass.events.messages
+                    if e.kind == GrassEvent.TREAD and e.header.stamp == stamp]
+        wait_for(lambda: len(treads()) == 4, 'the treads')
+        self.assertEqual(treads(), [('early', 4.1), ('late', 4.0), ('late', 4.2), ('middle', 4.3)])
+
     # N5: cells under the path are set, and they return to zero when the grass has risen.
     def test_the_cover_map_shows_the_track_and_forgets_it(self):
         logs = {name: Log('/grass/cover/' + name, OccupancyGrid) for name in LAYERS}

@@ -22,6 +22,7 @@ from waiting import SimulatedClock, wait_for
 
 FIRST, AHEAD = 1000 * RATE, 4  # first tick; how far stamps of treads and requests are ahead
 MASK = (1 << 64) - 1
+TREES = 16
 HANDS = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]  # trunks beside the borders [m]
 
 
@@ -100,7 +101,7 @@ class World:
         for shard in range(self.shards):
             get_tree = rospy.ServiceProxy('/forest_%d/get_tree' % shard, GetTree)
             sample = rospy.ServiceProxy('/grass_%d/sample' % shard, SampleGrass)
-            if not sample(points=places).success or not all(get_tree(tree=i).success for i in range(16)):
+            if not sample(points=places).success or not all(get_tree(tree=i).success for i in range(TREES)):
                 return False
         return True
 
@@ -182,8 +183,8 @@ class Requests:
                       along=found[0].along, force=force, duration=0.3, stamp=stamp)
         elif phase == 60:
             self.send('forest', 'release', Release, id=self.held[-1], stamp=stamp)
-        elif phase == 70:
-            self.send('forest', 'cut_branch', CutBranch, tree=age // 100 % 16, branch=5, stamp=stamp)
+        elif phase == 70 and cycle < TREES:
+            self.send('forest', 'cut_branch', CutBranch, tree=cycle, branch=5, stamp=stamp)
         elif phase == 20:
             self.send('grass', 'tread', Tread, header=Header(stamp=stamp, frame_id='map'),
                       points=[Point(-10.0, hand[0], 0.0), Point(10.0, hand[1], 0.0), Point(hand[0], -10.0, 0.0)])
