@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$ROOT"
 use_space "$DEVEL"
 export PATH=/usr/bin:/usr/sbin:/sbin:$PATH PYTHONDONTWRITEBYTECODE=1
-export PYTHONPATH=$ROOT/test/nodes/rigs:$PYTHONPATH
+export PYTHONPATH=$ROOT/test/nodes/rigs:$ROOT/test/nodes/shards:$PYTHONPATH
 tiles=${1:-1024} walkers=${2:-2000} ticks=${3:-300}
 area=${4:-$((1000 * tiles))} range=${5:-100}
 WORK=$(mktemp -d)
@@ -24,7 +24,7 @@ measure() {
     export ROS_MASTER_URI=http://localhost:11311 ROS_HOSTNAME=localhost ROS_HOME='$WORK/ros'
     roscore >'$WORK/roscore.log' 2>&1 &
     until rosparam set /use_sim_time true 2>/dev/null; do sleep 0.2; done
-    python3 test/nodes/shards/measure_shards.py '$WORK' $1 $2 $3 $ticks ${*:4} 2>'$WORK/errors.log'" ||
+    python3 test/nodes/shards/hosts/measure_shards.py '$WORK' $1 $2 $3 $ticks ${*:4} 2>'$WORK/errors.log'" ||
     { tail -n 20 "$WORK/errors.log" >&2; fail 'the measurement did not end'; }
 }
 

@@ -15,7 +15,7 @@ set -euo pipefail
 cd "$ROOT"
 use_space "$DEVEL"
 export PATH=/usr/bin:/usr/sbin:/sbin:$PATH PYTHONDONTWRITEBYTECODE=1
-export PYTHONPATH=$ROOT/test/nodes/rigs:$PYTHONPATH
+export PYTHONPATH=$ROOT/test/nodes/rigs:$ROOT/test/nodes/shards:$PYTHONPATH
 if [ "${IN_NAMESPACE:-}" != 1 ]; then
   # In a network of its own, no node of another run answers.
   IN_NAMESPACE=1 exec unshare --user --map-root-user --net --mount --pid --fork --kill-child \
@@ -58,7 +58,7 @@ for host in $(seq $HOSTS); do
   fi
 done
 if [ $netem = no ]; then
-  python3 test/nodes/shards/delayed_links.py \
+  python3 test/nodes/shards/hosts/delayed_links.py \
     "$(python3 -c "print(1e-3 * ${delay%ms})")" "$(python3 -c "print(1e-2 * ${loss%\%})")" \
     "${pairs[@]}" 2>"$WORK/links.log" &
 fi
@@ -91,7 +91,7 @@ for index in $(seq 0 $((HOSTS - 1))); do start_pair $((index + 1)) / "$index" "$
 start_pair 0 /whole/ all 0 1
 # usage: start_crowd HOST NAMESPACE SUFFIX INDEX COUNT
 start_crowd() {
-  rosparam load "$ROOT/test/nodes/shards/hosts_crowd.yaml" "$2crowd_$3"
+  rosparam load "$ROOT/test/nodes/shards/hosts/crowd.yaml" "$2crowd_$3"
   rosparam set "$2crowd_$3/shard" "{index: $4, count: $5}"
   start "$1" agent_crowd "crowd_$3" "__ns:=$2" "_scenario:=$scene" forest/layout:=none/layout \
     grass/cover/resistance:=none/resistance
@@ -119,7 +119,7 @@ if [ -x "$DEVEL/lib/vegetation_sim/rviz_frames" ]; then
 else
   say 'without displays: rviz_frames is not built'
 fi
-python3 test/nodes/shards/drive_hosts.py "$ticks" "$HOSTS" "${displays[@]}" || {
+python3 test/nodes/shards/hosts/drive_hosts.py "$ticks" "$HOSTS" "${displays[@]}" || {
   tail -n 5 "$WORK"/*.log >&2
   fail 'the shards are not one world'
 }

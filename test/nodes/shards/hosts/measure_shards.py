@@ -34,7 +34,7 @@ def write_scene(path, tiles, walkers, area):
     half = 0.5 * SIZE * side
     meadow = 0.5 * area ** 0.5
     nodes = int(2.0 * meadow / 4.0) + 1
-    species = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../config/species')
+    species = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../../config/species')
     with open(path, 'w', encoding='utf-8') as file:
         file.write('''frame_id: map
 seed: 9
