@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The processes of the nodes, which one roslaunch has started, and when they were disturbed."""
 import os
+import re
 import signal
 import time
 
 from waiting import wait_for
 
-PAGE = os.sysconf('SC_PAGE_SIZE')
+ANONYMOUS = re.compile(rb'RssAnon:\s*(\d+) kB')
 RECOVERY = 3.0   # [s] of wall time in which a node catches up after it was stopped or lost
 
 
@@ -42,10 +43,11 @@ class Processes:
         return None
 
     def memory(self, node):
-        """Returns process and resident memory [bytes] of a node, or None."""
+        """Returns process and anonymous memory [bytes] of a node, or None. Resident pages of files
+        do not count: they are code that has run for the first time."""
         process = self.find(node)
-        pages = _read('/proc/%s/statm' % process).split() if process else []
-        return (process, PAGE * int(pages[1])) if pages else None
+        found = ANONYMOUS.search(_read('/proc/%s/status' % process)) if process else None
+        return (process, 1024 * int(found.group(1))) if found else None
 
     def signal(self, node, number):
         process = wait_for(lambda: self.find(node), node)

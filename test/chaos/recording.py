@@ -13,12 +13,14 @@ from scene import SIMULATIONS
 
 
 class NodeRecord:
-    """Events, ticks and hashes of one node by stamps [ns]."""
+    """Events, ticks and hashes of one node by stamps [ns]. The journals of the node say which events
+    it has applied; they replace those received once all have arrived, since an event of the newest
+    tick of a journal may still be on its way."""
 
     def __init__(self, event_class, outputs):
         self.events, self.hashes, self.ticks = defaultdict(list), {}, set()
-        self.doubled = self.missing = 0  # events, where the node was killed
-        self._class, self._outputs = event_class, outputs
+        self.doubled = self.missing = 0  # events, where the node was killed or stopped
+        self._class, self._outputs, self._journal = event_class, outputs, {}
 
     def add_event(self, raw):
         if kind_of(raw) not in self._outputs:
@@ -40,12 +42,19 @@ class NodeRecord:
         self.take_journal(journal)
 
     def take_journal(self, journal):
-        """Adds events and ticks that were lost on the way to the recorder."""
-        for stamp, events in journal.items():
-            self.ticks.add(stamp)
-            if len(events) != len(self.events[stamp]):
-                self.missing += len(events) - len(self.events[stamp])
-                self.events[stamp] = [self._published(event) for event in events]
+        """Keeps ticks, and events for complete(), that may be lost on the way to the recorder."""
+        self.ticks.update(journal)
+        self._journal.update(journal)
+
+    def complete(self):
+        """Adds events that were lost, and removes those that were not applied."""
+        for stamp, events in self._journal.items():
+            received = len(self.events[stamp])
+            if len(events) == received:
+                continue
+            self.missing += max(0, len(events) - received)
+            self.doubled += max(0, received - len(events))
+            self.events[stamp] = [self._published(event) for event in events]
 
     def _published(self, event):
         message = self._class()
@@ -76,6 +85,12 @@ class Recording:
 
     def connected(self):
         return all(subscriber.get_num_connections() for subscriber in self._subscribers[:-1])
+
+    def complete(self):
+        """To be called when the nodes have published their last events."""
+        with self.lock:
+            for record in self.nodes.values():
+                record.complete()
 
     def _subscribe(self, topic, callback, node=None):
         def on_message(message):

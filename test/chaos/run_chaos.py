@@ -22,7 +22,7 @@ from vegetation_sim.srv import SaveSnapshot
 from checks import check_all
 from clock import FastClock
 from diagnosis import Diagnosis
-from faults import Faults, pause
+from faults import IN_TRANSIT, Faults, pause
 from processes import Processes
 from recording import Recording
 from replay import Replay
@@ -34,6 +34,8 @@ from watches import MemoryWatch, TickWatch
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 CALM = 5.0  # of simulated time before the first and after the last fault [s]
+KILLING = 1.0 / 3.0  # part of the time in which nodes are killed; then memory can be measured
+KEPT = os.path.join('build', 'chaos')  # folder of the results
 QUIET = subprocess.DEVNULL
 
 
@@ -77,12 +79,16 @@ def run_live(rig, seconds, seed):
     rig.visitors.start()
     faults = Faults(rig, random.Random(seed))
     end = START + seconds
-    faults.run(end - CALM, START + 0.5 * seconds)
+    faults.run(end - CALM, START + KILLING * seconds)
     rig.visitors.stop()
     wait_for(lambda: rig.clock.now >= end, 'the end of the clock')
     rig.clock.stop()
     rig.memory.stop()
-    return faults.outcomes, {node: save(rig, node) for node in SIMULATIONS}
+    rig.memory.write(os.path.join(KEPT, 'memory.csv'))
+    final = {node: save(rig, node) for node in SIMULATIONS}
+    pause(IN_TRANSIT)
+    rig.recording.complete()
+    return faults.outcomes, final
 
 
 def save(rig, node):
@@ -101,18 +107,17 @@ def save(rig, node):
 
 def keep_snapshots(folder, final, again):
     """Copies the final snapshots of nodes whose replay ended differently to build/chaos."""
-    kept = os.path.join('build', 'chaos')
     for node in SIMULATIONS:
         if final[node] == again[node]:
             continue
-        os.makedirs(kept, exist_ok=True)
         for run, name in ('live', 'final/%s'), ('replay', 'replay/final/replay.%s'):
-            target = os.path.join(kept, '%s_%s.snapshot' % (node, run))
+            target = os.path.join(KEPT, '%s_%s.snapshot' % (node, run))
             shutil.copy(os.path.join(folder, name % node + '.snapshot'), target)
             print('the final hashes differ: kept ' + target)
 
 
 def main(seconds, seed, factor):
+    os.makedirs(KEPT, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         master, nodes = start_ros(folder)
         try:

@@ -25,10 +25,10 @@ OWNED = {
     'grass/cover/resistance': ('agent_crowd',),
     'forest/state': ('vegetation_scanner',),
     'grass/layout': ('vegetation_scanner',),
-    'grass/state': ('vegetation_scanner',),
+    'grass/near': ('vegetation_scanner',),
     'canopy/layout': ('vegetation_scanner',),
     'canopy/state': ('vegetation_scanner',),
-    'agents': ('vegetation_scanner',),
+    'agents/near': ('vegetation_scanner',),
 }
 # Nodes that follow frames of the robot, and the text of the diagnostics when one is lost.
 FOLLOWERS = {

@@ -46,7 +46,7 @@ def trend_of(points):
 
 
 class MemoryWatch(threading.Thread):
-    """Notes the resident memory of each node."""
+    """Notes the anonymous memory of each node."""
 
     def __init__(self, processes, clock):
         super().__init__(daemon=True)
@@ -63,6 +63,14 @@ class MemoryWatch(threading.Thread):
     def stop(self):
         self._ended.set()
         self.join()
+
+    def write(self, path):
+        """Writes all samples as a table of comma-separated values."""
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write('node,time [s],process,anonymous memory [B]\n')
+            for node, samples in self.samples.items():
+                for at, process, size in samples:
+                    file.write('%s,%.3f,%d,%d\n' % (node, at, process, size))
 
     def trend(self, node, begin):
         """Returns the trend [bytes/h of simulated time] of the last process of a node after the

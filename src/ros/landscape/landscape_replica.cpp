@@ -174,8 +174,8 @@ std::string LandscapeReplica::rejectedLayout() const {
 }
 
 std::string LandscapeReplica::rivals() const {
-  return forest_.rivals() + meadow_.rivals() + canopy_.rivals() + crowd_.rivals() +
-         near_crowd_.rivals();
+  return joinRivals({forest_.rivals(), meadow_.rivals(), near_meadow_.rivalsOfNear(),
+                     canopy_.rivals(), crowd_.rivals(), near_crowd_.rivals()});
 }
 
 }  // namespace vegetation_sim

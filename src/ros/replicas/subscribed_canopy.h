@@ -57,7 +57,7 @@ class SubscribedCanopy : public SubscribedReplica<CanopyState> {
   int changes() const { return changes_; }
 
   std::string rivals() const override {
-    return SubscribedReplica::rivals() + (forest_ ? forest_->rivals() : "");
+    return joinRivals({SubscribedReplica::rivals(), forest_ ? forest_->rivals() : ""});
   }
   const InputStatus& layoutStatus() const { return layout_status_; }
   InputStatus stateStatus(Nanoseconds now) const {

@@ -42,7 +42,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   const InputStatus& layoutStatus() const { return layout_status_; }
   /// Each shard publishes layout and state.
   std::string rivals() const override {
-    return describeRivals(subscribers_, replica_.shards()) + wind_.rivals();
+    return joinRivals({describeRivals(subscribers_, replica_.shards()), wind_.rivals()});
   }
   const InputStatus& windStatus() const { return wind_.status(); }
   /// Returns the status of the states, of all shards. It names those that are not in use.

@@ -78,8 +78,11 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   const InputStatus& layoutStatus() const { return layout_status_; }
   /// Each shard publishes layout and state.
   std::string rivals() const override {
-    return describeRivals(subscribers_, replica_.shards()) + wind_.rivals();
+    return joinRivals(
+        {describeRivals(subscribers_, replica_.shards()), rivalsOfNear(), wind_.rivals()});
   }
+  /// As rivals(), of `near` only.
+  std::string rivalsOfNear() const { return describeRivals({near_subscriber_}, replica_.shards()); }
   const InputStatus& windStatus() const { return wind_.status(); }
   /// Returns the status of the states, of all shards. It names those that are not in use.
   InputStatus stateStatus(Nanoseconds now) const;

@@ -14,5 +14,7 @@ namespace vegetation_sim {
 /// wins, so that two of them alternate. Empty if there are none. @param owners of each topic.
 std::string describeRivals(const std::vector<ros::Subscriber>& subscribers,
                            std::uint32_t owners = 1);
+/// Joins such texts.
+std::string joinRivals(const std::vector<std::string>& rivals);
 
 }  // namespace vegetation_sim

@@ -86,6 +86,7 @@ class CrowdInterest(unittest.TestCase):
         hits = [m.counts[ScanReport.PERSON] for m in lidars.scanners[0].report.messages]
         self.assertGreater(min(hits[:50]), 5)
         self.assertGreater(min(hits[-50:]), 5)
+        lidars.name_rival('/agents/near', NearAgents)
 
     def test_4_the_people_do_not_depend_on_listeners(self):
         watched = self.crowd.hashes()

@@ -115,6 +115,7 @@ class GrassInterest(unittest.TestCase):
         self.assertGreater(len(compared), 100)
         self.assertEqual(unequal, [])
         self.assertGreater(lidars.scanners[0].report.messages[-1].counts[ScanReport.GRASS], 300)
+        lidars.name_rival('/grass/near', NearGrass)
 
     def test_4_the_ground_does_not_depend_on_listeners(self):
         self.run_ticks(3 * RATE)

@@ -120,6 +120,15 @@ class LidarPair:
         print('%d of %d sweeps are compared' % (len(compared), len(both)))
         return compared, [s for s in compared if clouds[0][s] != clouds[1][s]]
 
+    def name_rival(self, topic, kind):
+        """Returns once the first lidar has named a second publisher of a topic, and only once."""
+        words = '2 publishers of ' + topic
+        rival = rospy.Publisher(topic, kind, queue_size=1)
+        said = wait_for(lambda: (lambda text: words in text and text)(self.scanners[0].status().message), words)
+        rival.unregister()
+        if said.count(topic) != 1:
+            raise AssertionError(said)
+
     def close(self):
         for process in self._processes:
             stop(process)

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The recorder of the chaos test has each event once, whether a message or a journal has it first."""
+import io
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import GrassEvent
+
+from recording import NodeRecord
+
+TICK = rospy.Time(1000, 0)
+OTHER = rospy.Time(1001, 0)
+
+
+def event_of(source, frame='map', stamp=TICK):
+    """Returns the bytes of a message; a journal has no frame."""
+    message = GrassEvent(kind=GrassEvent.TREAD)
+    message.header.stamp, message.header.frame_id, message.tread.source = stamp, frame, source
+    out = io.BytesIO()
+    message.serialize(out)
+    return out.getvalue()
+
+
+class ChaosRecord(unittest.TestCase):
+    def setUp(self):
+        self.record = NodeRecord(GrassEvent, (GrassEvent.ENTER,))
+        self.published = [event_of('left'), event_of('right')]
+        self.journal = {TICK.to_nsec(): [event_of('left', ''), event_of('right', '')]}
+
+    def expect(self, missing, doubled):
+        self.record.complete()
+        self.assertEqual(self.record.events[TICK.to_nsec()], self.published)
+        self.assertEqual((self.record.missing, self.record.doubled), (missing, doubled))
+
+    # A node writes a tick to its journal before all readers have received the events.
+    def test_events_that_arrive_after_the_journal_are_not_doubled(self):
+        self.record.add_event(self.published[0])
+        self.record.take_journal(self.journal)
+        self.record.add_event(self.published[1])
+        self.expect(0, 0)
+
+    def test_events_that_never_arrive_are_those_of_the_journal(self):
+        self.record.add_event(self.published[1])
+        self.record.take_journal(self.journal)
+        self.expect(1, 0)
+
+    # A process that was killed has published events of a tick that it did not finish.
+    def test_events_that_were_not_applied_are_forgotten(self):
+        for raw in (*self.published, event_of('lost', stamp=OTHER)):
+            self.record.add_event(raw)
+        self.record.end_process(0, self.journal)
+        self.expect(0, 1)
+        self.assertNotIn(OTHER.to_nsec(), self.record.events)
+
+
+if __name__ == '__main__':
+    rospy.init_node('chaos_record_test')
+    rostest.rosrun('vegetation_sim', 'chaos_record', ChaosRecord)
