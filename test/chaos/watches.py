@@ -12,6 +12,7 @@ from raw_messages import publisher_of, stamp_of
 from scene import NANOSECONDS, NODES, TICKS
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
+WINDOW = 60.0    # [s] of simulated time, of which the least memory counts
 LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
 
 # Slope, its standard error, and the time from the first to the last sample.
@@ -45,6 +46,15 @@ def trend_of(points):
     return Trend(slope, error, points[-1][0] - points[0][0])
 
 
+def floors_of(samples):
+    """Returns the least of the (time, value) samples of each whole window. Nodes keep up to
+    MOST_FREED_MEMORY of freed memory, which comes and goes; what they hold is the floor."""
+    windows = {}
+    for at, value in samples:
+        windows.setdefault(int((at - samples[0][0]) / WINDOW), []).append((value, at))
+    return [(at, value) for value, at in (min(windows[key]) for key in sorted(windows)[:-1])]
+
+
 class MemoryWatch(threading.Thread):
     """Notes the anonymous memory of each node."""
 
@@ -74,10 +84,11 @@ class MemoryWatch(threading.Thread):
 
     def trend(self, node, begin):
         """Returns the trend [bytes/h of simulated time] of the last process of a node after the
-        time `begin`."""
+        time `begin`: that of the least memory in each of equal windows of time."""
         last = self.samples[node][-1][1]
-        return trend_of([(at / 3600.0, size) for at, process, size in self.samples[node]
-                         if process == last and at >= begin])
+        return trend_of([(at / 3600.0, size) for at, size in floors_of(
+            [(at, size) for at, process, size in self.samples[node]
+             if process == last and at >= begin])])
 
 
 class TickWatch:

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The recorder of the chaos test has each event once, whether a message or a journal has it first."""
+"""The recorder of the chaos test has each event once, whether a message or a journal has it first.
+The trend of the memory is that of what a node holds."""
 import io
 import unittest
 
@@ -10,6 +11,7 @@ import rostest
 from vegetation_sim.msg import GrassEvent
 
 from recording import NodeRecord
+from watches import floors_of, trend_of
 
 TICK = rospy.Time(1000, 0)
 OTHER = rospy.Time(1001, 0)
@@ -54,6 +56,15 @@ class ChaosRecord(unittest.TestCase):
         self.record.end_process(0, self.journal)
         self.expect(0, 1)
         self.assertNotIn(OTHER.to_nsec(), self.record.events)
+
+    # Nodes return freed memory only when they keep more than 4 MB of it.
+    def test_the_trend_of_memory_is_that_of_its_floor(self):
+        for growth in (0.0, 2.0):  # [MB/h]
+            samples = [(at, 11.0 + growth * at / 3600.0 + 0.1 * (at % 47)) for at in range(0, 1500, 2)]
+            trend = trend_of([(at / 3600.0, size) for at, size in floors_of(samples)])
+            self.assertAlmostEqual(trend.slope, growth, delta=0.3)
+            self.assertLess(trend.error, 0.3)
+            self.assertGreater(trend.duration, 1300.0 / 3600.0)
 
 
 if __name__ == '__main__':
