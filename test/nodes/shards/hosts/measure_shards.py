@@ -64,7 +64,10 @@ class Counter:
 
     def __init__(self, topic, message_type=None):
         self.bytes, self.stamps, self._type = 0, collections.Counter(), message_type
-        rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
+        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
+
+    def publishers(self):
+        return self._subscriber.get_num_connections()
 
     def _on_message(self, raw):
         self.bytes += len(raw._buff)
@@ -96,6 +99,9 @@ def main():
     clock = SimulatedClock()
     clock.wait_for_listeners(2 * shards + 3)
     wait_for(lambda: sensors.get_num_connections() >= shards, 'readers of sensors')
+    for topic, counter in counters.items():
+        count = 1 if topic.startswith('/agents') else shards
+        wait_for(lambda c=counter, n=count: c.publishers() >= n, 'publishers of ' + topic)
 
     def run(first, last):
         for tick in range(first, last):
