@@ -30,10 +30,10 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
-  join("crowd", listMessages<AgentStates, CrowdBorder, CrowdPart>(), peopleHash(),
+  join("crowd", listMessages<AgentStates, CrowdBorder>(), scenarioHash(),
        options_.scene.terrain->hash());
   if (options_.shard) shard_.emplace(crowd_, *options_.shard);
-  populate(crowd::CrowdShard::Start::FRESH);
+  populate();
   if (isPart()) {
     borders_ = HashedCache<CrowdBorder>(2 * std::size_t{options_.shard->count});
     inbox_ = std::make_unique<BorderInbox>(handle_, *options_.shard,
@@ -65,11 +65,14 @@ void AgentCrowd::connect() {
 }
 
 // Walkers of the scenario exist from the first tick on, so they are no events.
-void AgentCrowd::populate(crowd::CrowdShard::Start start) {
+void AgentCrowd::populate() {
   std::uint32_t id = 0;
   for (const crowd::Spawn& spawn : options_.scene.crowd.spawns) crowd_.spawn(spawn, id++);
   updateNextId();
-  if (shard_) keepBorder(shard_->begin(start));
+  if (!shard_) return;
+  crowd_.takeOutside(shard_->owners());
+  shard_->clear();
+  keepBorder();
 }
 
 // Ids of walkers that wait for their stamps are taken too.
@@ -96,8 +99,8 @@ void AgentCrowd::tick(std::int64_t) {
     hearBorders(stamp);
   }
   applyInputs(stamp);
-  beginTickOfShard();
   updateNextId();
+  if (shard_) shard_->beginTick();
   crowd_.advance(stamp);
   publishAgents(stamp);
   publishView(stamp);
@@ -129,14 +132,13 @@ void AgentCrowd::apply(CrowdEvent& event) {
       break;
     }
     case CrowdEvent::RESET:
-      if (shard_) shard_->setRun(shard_->run() + 1);
-      resetCrowd(crowd::CrowdShard::Start::RESET);
+      resetCrowd();
       break;
     case BORDER:
       applyBorder(event.input_hash);
       break;
     default:
-      if (!isPart() || isForThisShard(event)) applyToCrowd(event, crowd_);
+      applyToCrowd(event, crowd_);
   }
 }
 
@@ -180,9 +182,9 @@ void AgentCrowd::applyCover(std::uint64_t hash) {
 }
 
 // Trunks, grass and settings stay in force.
-void AgentCrowd::resetCrowd(crowd::CrowdShard::Start start) {
+void AgentCrowd::resetCrowd() {
   crowd_.clear();
-  populate(start);
+  populate();
   robots_.clear();
   trodden_.clear();
 }
@@ -192,8 +194,8 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 }
 
 void AgentCrowd::restart() {
-  resetCrowd(crowd::CrowdShard::Start::FRESH);
-  if (inbox_) inbox_->jumpBack();
+  resetCrowd();
+  if (inbox_) inbox_->clear();
   parts_.clear();
   last_parts_.clear();
   joined_ = 0;
