@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "core/error_text.h"
@@ -31,8 +32,7 @@ class ShardedCrowd {
     for (std::uint32_t i = 0; i < count; ++i) {
       crowds_.push_back(copyOf(whole));
       shards_.push_back(std::make_unique<CrowdShard>(*crowds_.back(), Shard{i, count}));
-      crowds_.back()->takeOutside(shards_.back()->owners());
-      borders_.push_back(shards_.back()->endTick());
+      borders_.push_back(shards_.back()->begin(CrowdShard::Start::FRESH));
     }
   }
   void advance(Nanoseconds stamp) {
@@ -157,12 +157,18 @@ TEST(CrowdShard, PeopleWaitForASilentShard) {
   there->takeOutside(CrowdOwners(whole.snapshot().area, {second, 2}));
   CrowdShard sender(*here, {first, 2}), receiver(*there, {second, 2});
   CrowdBorder border = sender.endTick();
-  for (Nanoseconds tick = 1; sender.waiting() == 0 && tick < 600; ++tick) {
+  for (Nanoseconds tick = 1; sender.handed().empty() && tick < 600; ++tick) {
     sender.beginTick();
     here->advance(tick * fromSeconds(PERIOD));
     border = sender.endTick();
   }
-  ASSERT_EQ(sender.waiting(), 1u);
+  ASSERT_EQ(sender.handed().size(), 1u);
+  EXPECT_TRUE(sender.waiting().empty());
+  sender.beginTick();
+  // They stand at the border meanwhile.
+  ASSERT_EQ(sender.waiting().size(), 1u);
+  EXPECT_EQ(length(sender.waiting().front().velocity), 0.0);
+  EXPECT_EQ(owners.ownerAt(sender.waiting().front().position), second);
   here->advance(border.stamp + fromSeconds(PERIOD));
   border = sender.endTick();
   EXPECT_EQ(here->walkers().size(), 0u);
@@ -182,11 +188,163 @@ TEST(CrowdShard, PeopleWaitForASilentShard) {
   read.finish();
   EXPECT_EQ(archiveBorder(again.endTick()), archiveBorder(answer));
   sender.hear(second, answer);
-  EXPECT_EQ(sender.waiting(), 0u);
+  EXPECT_TRUE(sender.handed().empty());
   EXPECT_EQ(errorOf([&] { sender.hear(first, answer); }),
             "border: shard = " + std::to_string(first) +
                 " is no other shard of the 2 than this one, " + std::to_string(first));
   EXPECT_NE(errorOf([] { readBorder("no border"); }), "");
+}
+
+// All people at their starts, as those of a scenario.
+std::vector<Spawn> startsOf(const Crowd& crowd) {
+  std::vector<Spawn> out;
+  for (const Walker& walker : crowd.walkers()) {
+    Spawn spawn;
+    spawn.position = walker.position;
+    spawn.radius = walker.radius;
+    out.push_back(spawn);
+  }
+  return out;
+}
+
+void repopulate(Crowd& crowd, const std::vector<Spawn>& starts) {
+  crowd.clear();
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    crowd.spawn(starts[i], static_cast<std::uint32_t>(i));
+}
+
+/// Two shards that can be late, reset and killed.
+struct TwoShards {
+  explicit TwoShards(Crowd& whole) : starts(startsOf(whole)) {
+    for (const std::uint32_t i : {0u, 1u}) start(i, whole);
+  }
+  void start(std::uint32_t i, const Crowd& whole) {
+    crowds[i] = copyOf(whole);
+    repopulate(*crowds[i], starts);
+    shards[i] = std::make_unique<CrowdShard>(*crowds[i], Shard{i, 2});
+    borders[i] = shards[i]->begin(CrowdShard::Start::FRESH);
+  }
+  void reset(std::uint32_t i, std::uint32_t run) {
+    shards[i]->setRun(run);
+    repopulate(*crowds[i], starts);
+    shards[i]->begin(CrowdShard::Start::RESET);
+  }
+  void hear(std::uint32_t i) {
+    const CrowdBorder border = readBorder(archiveBorder(borders[1 - i]));
+    if (shards[i]->isResetBy(border)) reset(i, border.run);
+    shards[i]->hear(1 - i, border);
+  }
+  void step(std::uint32_t i, Nanoseconds stamp) {
+    if (const auto missing = shards[i]->spawnMissing(starts)) spawned = *missing;
+    shards[i]->beginTick();
+    crowds[i]->advance(stamp);
+  }
+  /// Runs both for a tick, and notes whom they have published in it.
+  void advance(Nanoseconds stamp) {
+    for (const std::uint32_t i : {0u, 1u}) hear(i);
+    ids.clear();
+    hash = 0;
+    for (const std::uint32_t i : {0u, 1u}) {
+      step(i, stamp);
+      for (const Walker& walker : crowds[i]->walkers()) ids.push_back(walker.id);
+      for (const Walker& walker : shards[i]->waiting()) ids.push_back(walker.id);
+      hash += crowds[i]->snapshot().walkersHash();
+    }
+    std::sort(ids.begin(), ids.end());
+    for (const std::uint32_t i : {0u, 1u}) borders[i] = shards[i]->endTick();
+  }
+
+  std::vector<std::uint32_t> ids;
+  std::uint64_t hash{0};
+  std::vector<Spawn> starts;
+  std::unique_ptr<Crowd> crowds[2];
+  std::unique_ptr<CrowdShard> shards[2];
+  CrowdBorder borders[2];
+  std::size_t spawned{0};
+};
+
+std::vector<std::uint32_t> upTo(std::uint32_t count) {
+  std::vector<std::uint32_t> out(count);
+  std::iota(out.begin(), out.end(), 0U);
+  return out;
+}
+
+// Borders of the tick before a reset come after it in the same tick.
+TEST(CrowdShard, AResetOfBothIsThatOfOneCrowd) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  whole.removeRobot("robot");
+  TwoShards two(whole);
+  repopulate(whole, two.starts);
+  Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+  for (int tick = 0; tick < 900; ++tick, stamp += fromSeconds(PERIOD)) {
+    if (tick == 600) {
+      repopulate(whole, two.starts);
+      for (const std::uint32_t i : {0u, 1u}) two.reset(i, 1);
+    }
+    whole.advance(stamp);
+    two.advance(stamp);
+    ASSERT_EQ(two.hash, whole.snapshot().walkersHash()) << tick;
+  }
+}
+
+// The requests reach the shards at different ticks.
+TEST(CrowdShard, AShardThatIsResetLaterDuplicatesNobody) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  TwoShards two(whole);
+  Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+  for (int tick = 0; tick < 900; ++tick, stamp += fromSeconds(PERIOD)) {
+    if (tick == 600) two.reset(0, 1);
+    two.advance(stamp);
+    if (tick == 602) two.reset(1, two.shards[1]->run() + 1);
+    const bool is_between = tick >= 600 && tick <= 605;
+    ASSERT_TRUE(is_between || two.ids == upTo(150)) << tick;
+  }
+  EXPECT_EQ(two.shards[0]->run(), two.shards[1]->run());
+}
+
+// One that is killed and has no checkpoint: nobody is there twice, and those who were in it, from
+// wherever they came, begin anew.
+TEST(CrowdShard, AShardThatStartsAnewSpawnsTheMissing) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  for (const bool is_late : {false, true}) {
+    TwoShards two(whole);
+    Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+    std::size_t lost = 0;
+    for (int tick = 0; tick < 900; ++tick, stamp += fromSeconds(PERIOD)) {
+      if (tick == 600) {
+        lost = two.crowds[1]->walkers().size();
+        if (is_late)
+          for (int late = 0; late < 30; ++late, stamp += fromSeconds(PERIOD)) {
+            two.step(0, stamp);
+            two.borders[0] = two.shards[0]->endTick();
+          }
+        two.start(1, whole);
+      }
+      two.advance(stamp);
+      const bool is_between = tick >= 600 && tick <= 604;
+      ASSERT_TRUE(is_between || two.ids == upTo(150)) << tick << is_late;
+    }
+    EXPECT_GT(two.spawned, 0u);
+    EXPECT_LE(two.spawned, lost);
+  }
+}
+
+// A person who comes to a shard before it is reset is not sent to it again.
+TEST(CrowdShard, ABorderFromBeforeAResetIsVoid) {
+  Crowd whole = wanderers(20, 24.0, 7);
+  TwoShards two(whole);
+  CrowdBorder old = two.borders[0];
+  old.stamp = NANOSECONDS_PER_SECOND;
+  Walker stranger = two.crowds[0]->walkers().front();
+  old.handed.push_back({1, old.stamp, stranger});
+  two.shards[1]->beginTick();
+  two.reset(1, 1);
+  const std::size_t before = two.crowds[1]->walkers().size();
+  two.shards[1]->hear(0, old);
+  EXPECT_EQ(two.crowds[1]->walkers().size(), before);
+  old.run = 1;
+  two.shards[1]->hear(0, old);
+  EXPECT_EQ(two.crowds[1]->walkers().size(), before + 1);
 }
 
 }  // namespace

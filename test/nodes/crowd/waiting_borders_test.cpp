@@ -31,45 +31,60 @@ std::vector<int> ticksOf(const std::vector<CrowdBorder>& borders) {
   return out;
 }
 
+std::vector<CrowdBorder> takeAt(WaitingBorders& borders, Nanoseconds now) {
+  borders.beginTick(0, now);
+  return borders.take();
+}
+
+bool hasAllAt(WaitingBorders& borders, Nanoseconds before) {
+  borders.beginTick(before, before + TICK);
+  return borders.hasAll();
+}
+
+std::size_t dropLateAt(WaitingBorders& borders, Nanoseconds before) {
+  borders.beginTick(before, before + TICK);
+  return borders.dropLate();
+}
+
 TEST(WaitingBorders, ATickTakesTheNewestThatIsEarlier) {
   WaitingBorders borders(FIRST_OF_TWO);
   for (const int tick : {1, 2, 3}) borders.add(borderAfter(std::uint8_t(tick)));
-  EXPECT_EQ(ticksOf(borders.take(3 * TICK)), std::vector<int>{2});
-  EXPECT_EQ(ticksOf(borders.take(4 * TICK)), std::vector<int>{3});
-  EXPECT_TRUE(borders.take(5 * TICK).empty());
+  EXPECT_EQ(ticksOf(takeAt(borders, 3 * TICK)), std::vector<int>{2});
+  EXPECT_EQ(ticksOf(takeAt(borders, 4 * TICK)), std::vector<int>{3});
+  EXPECT_TRUE(takeAt(borders, 5 * TICK).empty());
 }
 
 // The other shard was one tick ahead when the link came up.
 TEST(WaitingBorders, TheFirstMessageMayBeOfTheTickThatBegins) {
   WaitingBorders borders(FIRST_OF_TWO);
   borders.add(borderAfter(62));
-  EXPECT_TRUE(borders.hasAll(61 * TICK));
-  const std::vector<CrowdBorder> taken = borders.take(62 * TICK);
+  EXPECT_TRUE(hasAllAt(borders, 61 * TICK));
+  const std::vector<CrowdBorder> taken = takeAt(borders, 62 * TICK);
   EXPECT_EQ(ticksOf(taken), std::vector<int>{61});
   // It is the message that tick 61 has sent, but for what that held of tick 60.
   EXPECT_EQ(taken.at(0).header.stamp, toStamp(61 * TICK));
   EXPECT_TRUE(taken.at(0).previous_border.empty());
-  EXPECT_EQ(ticksOf(borders.take(63 * TICK)), std::vector<int>{62});
+  EXPECT_EQ(ticksOf(takeAt(borders, 63 * TICK)), std::vector<int>{62});
 }
 
 TEST(WaitingBorders, ABorderIsTakenOnce) {
   WaitingBorders borders(FIRST_OF_TWO);
   borders.add(borderAfter(7));
-  EXPECT_EQ(ticksOf(borders.take(8 * TICK)), std::vector<int>{7});
+  EXPECT_EQ(ticksOf(takeAt(borders, 8 * TICK)), std::vector<int>{7});
   borders.add(borderAfter(8));  // holds 7 too
-  EXPECT_TRUE(borders.take(8 * TICK).empty());
-  EXPECT_EQ(ticksOf(borders.take(9 * TICK)), std::vector<int>{8});
+  EXPECT_TRUE(takeAt(borders, 8 * TICK).empty());
+  EXPECT_EQ(ticksOf(takeAt(borders, 9 * TICK)), std::vector<int>{8});
 }
 
 TEST(WaitingBorders, ASilentShardIsExpectedAgainOnceItSends) {
   WaitingBorders borders(FIRST_OF_TWO);
-  EXPECT_FALSE(borders.hasAll(TICK));
-  EXPECT_EQ(borders.dropLate(TICK), 1u);
-  EXPECT_TRUE(borders.hasAll(TICK));
+  EXPECT_FALSE(hasAllAt(borders, TICK));
+  EXPECT_EQ(dropLateAt(borders, TICK), 1u);
+  EXPECT_TRUE(hasAllAt(borders, TICK));
   borders.add(borderAfter(3));
-  EXPECT_TRUE(borders.hasAll(3 * TICK));
-  EXPECT_FALSE(borders.hasAll(4 * TICK));
-  EXPECT_EQ(borders.dropLate(3 * TICK), 0u);
+  EXPECT_TRUE(hasAllAt(borders, 3 * TICK));
+  EXPECT_FALSE(hasAllAt(borders, 4 * TICK));
+  EXPECT_EQ(dropLateAt(borders, 3 * TICK), 0u);
 }
 
 TEST(WaitingBorders, OtherMessagesAreIgnored) {
@@ -77,8 +92,8 @@ TEST(WaitingBorders, OtherMessagesAreIgnored) {
   borders.add(borderAfter(3, 0));     // its own
   borders.add(borderAfter(3, 2));     // of no shard
   borders.add(borderAfter(3, 1, 3));  // of three
-  EXPECT_FALSE(borders.hasAll(TICK));
-  EXPECT_TRUE(borders.take(9 * TICK).empty());
+  EXPECT_FALSE(hasAllAt(borders, TICK));
+  EXPECT_TRUE(takeAt(borders, 9 * TICK).empty());
 }
 
 TEST(WaitingBorders, AMessageWhoseOrderIsWrongGivesItsBorderOnly) {
@@ -86,14 +101,79 @@ TEST(WaitingBorders, AMessageWhoseOrderIsWrongGivesItsBorderOnly) {
   CrowdBorder wrong = borderAfter(5);
   wrong.previous_stamp = toStamp(6 * TICK);
   borders.add(wrong);
-  EXPECT_EQ(ticksOf(borders.take(9 * TICK)), std::vector<int>{5});
+  EXPECT_EQ(ticksOf(takeAt(borders, 9 * TICK)), std::vector<int>{5});
+}
+
+// The other shard sees the jump after this one: its borders from before are void, and awaited anew.
+TEST(WaitingBorders, AfterAJumpBackThoseFromBeforeAreVoid) {
+  WaitingBorders borders(FIRST_OF_TWO);
+  borders.add(borderAfter(100));
+  borders.beginTick(100 * TICK, 101 * TICK);
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{100});
+  borders.add(borderAfter(101));
+  borders.jumpBack();
+  borders.beginTick(0, 51 * TICK);
+  EXPECT_FALSE(borders.hasAll());
+  borders.add(borderAfter(102));
+  EXPECT_FALSE(borders.hasAll());
+  EXPECT_TRUE(borders.take().empty());
+  borders.add(borderAfter(0));
+  EXPECT_TRUE(borders.hasAll());
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{0});
+  borders.add(borderAfter(51));
+  borders.beginTick(51 * TICK, 52 * TICK);
+  EXPECT_TRUE(borders.hasAll());
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{51});
+}
+
+// The other shard sees the jump before this one: this one's tick still has the border from before.
+TEST(WaitingBorders, ThoseFromAfterAJumpBackWaitForIt) {
+  WaitingBorders borders(FIRST_OF_TWO);
+  for (const int tick : {99, 100, 0, 51}) {
+    borders.beginTick(99 * TICK, 100 * TICK);
+    borders.add(borderAfter(std::uint8_t(tick)));
+  }
+  borders.beginTick(100 * TICK, 101 * TICK);
+  EXPECT_TRUE(borders.hasAll());
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{100});
+  borders.jumpBack();
+  borders.beginTick(0, 51 * TICK);
+  EXPECT_TRUE(borders.hasAll());
+  // What the shard has sent after tick 51 is for the tick after that.
+  EXPECT_LT(borders.take().at(0).header.stamp, toStamp(51 * TICK));
+  borders.beginTick(51 * TICK, 52 * TICK);
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{51});
+}
+
+TEST(WaitingBorders, AStampAheadDoesNotReplaceTrueOnes) {
+  WaitingBorders borders(FIRST_OF_TWO);
+  borders.beginTick(TICK, 2 * TICK);
+  borders.add(borderAfter(1));
+  for (const double ahead : {1.0, 11.0, 1e9}) {
+    CrowdBorder wrong = borderAfter(200);
+    wrong.header.stamp = toStamp(2 * TICK + fromSeconds(ahead));
+    wrong.previous_border.clear();
+    borders.add(wrong);
+  }
+  EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{1});
+  for (const int tick : {2, 3, 4}) {
+    borders.beginTick(tick * TICK, (tick + 1) * TICK);
+    borders.add(borderAfter(std::uint8_t(tick)));
+    EXPECT_EQ(ticksOf(borders.take()), std::vector<int>{tick}) << tick;
+  }
+  // One that is too far ahead is not taken for a sign of life.
+  borders.beginTick(5 * TICK, 6 * TICK);
+  CrowdBorder wrong = borderAfter(200);
+  wrong.header.stamp = toStamp(6 * TICK + fromSeconds(11.0));
+  borders.add(wrong);
+  EXPECT_FALSE(borders.hasAll());
 }
 
 TEST(WaitingBorders, AFloodKeepsTheLast) {
   WaitingBorders borders(FIRST_OF_TWO);
   for (int tick = 0; tick < 250; ++tick) borders.add(borderAfter(std::uint8_t(tick)));
-  EXPECT_TRUE(borders.take(140 * TICK).empty());
-  EXPECT_EQ(ticksOf(borders.take(151 * TICK)), std::vector<int>{150});
+  EXPECT_TRUE(takeAt(borders, 140 * TICK).empty());
+  EXPECT_EQ(ticksOf(takeAt(borders, 151 * TICK)), std::vector<int>{150});
 }
 
 }  // namespace

@@ -13,12 +13,13 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, PointStamped
 from std_msgs.msg import Header
-from vegetation_sim.msg import AgentSpawn, AgentStates, CrowdPart, ErrorCode
+from std_srvs.srv import Trigger
+from vegetation_sim.msg import AgentSpawn, AgentStates, CrowdBorder, CrowdPart, ErrorCode
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
 
 from forest_rig import RATE, start_node, stop, time_of
 from waiting import DEADLINE, SimulatedClock, wait_for
-from watched_node import Log, listens
+from watched_node import Log, all_delivered, listens, publisher
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'crowd_shards.yaml')
 FIRST, PEOPLE, SHARDS = 1000 * RATE, 60, 2
@@ -136,6 +137,89 @@ class CrowdShards(unittest.TestCase):
     def answered(self, *request, **fields):
         answer = self.ask(*request, **fields)
         return answer if answer.success else None
+
+    def spawn_both(self):
+        """Spawns a person in each shard, and returns both ids."""
+        header = Header(frame_id='map')
+        return [self.ask(0, 'spawn', SpawnAgents, header=header, count=1,
+                         like=AgentSpawn(position=place, stands=True)).ids[0] for place in (LEFT, RIGHT)]
+
+    def people(self):
+        return {agent.id: agent for agent in self.agents.messages[-1].agents}
+
+    def test_4_a_request_may_be_for_people_of_both(self):
+        ids = self.spawn_both()
+        self.run_ticks(2)
+        goal = PointStamped(header=Header(frame_id='map'), point=Point(1.0, 1.0, 0.0))
+        for shard in range(SHARDS):
+            goal.point.x += 1.0
+            answer = self.ask(shard, 'set_goal', SetAgentGoal, ids=ids, goal=goal)
+            self.assertTrue(answer.success, answer.message)
+            self.run_ticks(2)
+            self.assertEqual([self.people()[id_].goal for id_ in ids], [goal.point] * 2)
+            # One that is unknown refuses it for all.
+            answer = self.ask(shard, 'remove', RemoveAgents, ids=ids + [77777])
+            self.assertEqual((answer.success, answer.error_code, answer.message),
+                             (False, ErrorCode.UNKNOWN, 'ids: walker 77777 is unknown'))
+            self.run_ticks(2)
+            self.assertTrue(set(ids) <= set(self.people()))
+        answer = self.ask(1, 'remove', RemoveAgents, ids=ids)
+        self.assertTrue(answer.success, answer.message)
+        self.run_ticks(2)
+        self.assertFalse(set(ids) & set(self.people()))
+        answer = self.ask(0, 'remove', RemoveAgents, all=True)
+        self.assertTrue(answer.success, answer.message)
+        self.run_ticks(2)
+        self.assertFalse(self.people())
+
+    def test_5_a_reset_is_that_of_one_node(self):
+        for round_ in range(2):
+            for service in ('/crowd_%d/reset' % round_, '/whole/agent_crowd/reset'):
+                answer = rospy.ServiceProxy(service, Trigger)()
+                self.assertTrue(answer.success, answer.message)
+            first = self.tick + 1
+            self.run_ticks(200)
+            self.check_equal(first)
+
+    def test_6_false_messages_change_nothing(self):
+        parts, borders = publisher('/agents/parts', CrowdPart), publisher('/agents/border', CrowdBorder)
+        wait_for(lambda: parts.get_num_connections() >= 1 and borders.get_num_connections() >= SHARDS, 'readers')
+        first = self.tick + 1
+        for ahead in (1, 2, 3, 50, 10 ** 6):
+            part = CrowdPart(shard=1)
+            part.people.header.frame_id = 'map'
+            part.people.header.stamp = time_of(self.tick + ahead)
+            parts.publish(part)
+            borders.publish(CrowdBorder(header=part.people.header, shard=1, shards=SHARDS, border=b'?'))
+        part.people.header = Header(stamp=time_of(self.tick + 1), frame_id='odom')
+        parts.publish(part)
+        wait_for(all_delivered, 'the messages to arrive')
+        self.run_ticks(10)
+        parts.unregister()
+        borders.unregister()
+        self.assertEqual([m.header.stamp for m in self.agents.messages[-10:]],
+                         [time_of(first + i) for i in range(10)])
+        self.run_ticks(60)
+        self.assertEqual(sorted(self.people()), list(range(PEOPLE)))
+
+    def test_7_the_clock_jumps_back(self):
+        type(self).tick = FIRST - 300
+        for log in (self.agents, self.whole, self.parts):
+            log.messages.clear()
+        first = self.tick + 1
+        self.run_ticks(200)
+        self.check_equal(first)
+
+    def test_8_a_silent_shard_is_named(self):
+        ids = self.spawn_both()
+        self.run_ticks(2)
+        stop(self.processes['/crowd_1'], signal.SIGKILL)
+        for request in (dict(all=True), dict(ids=ids), dict(ids=ids[1:])):
+            answer = self.ask(0, 'remove', RemoveAgents, **request)
+            self.assertEqual((answer.success, answer.error_code), (False, ErrorCode.NOT_AVAILABLE), answer.message)
+            self.assertIn('shard 1 of 2, /crowd_1', answer.message)
+        answer = self.ask(0, 'remove', RemoveAgents, ids=ids[:1])
+        self.assertTrue(answer.success, answer.message)
 
 
 if __name__ == '__main__':
