@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -84,6 +85,8 @@ class Crowd {
   std::vector<Walker> takeOutside(const CrowdOwners& owners);
   /// Adds a walker that has left another shard. @throws InvalidInput if its id is not free.
   void takeIn(const Walker& walker);
+  /// Gives no id up to this one to walkers that are spawned without an id.
+  void keepIdsFree(std::uint32_t id) { memory_.next_id = std::max(memory_.next_id, id + 1); }
   /// Sets the walkers of other shards, by rising id, that those of this one see in the next tick.
   /// No id may be that of a walker here.
   void setOthers(std::vector<Walker> others) { others_ = std::move(others); }

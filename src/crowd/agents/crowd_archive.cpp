@@ -8,7 +8,7 @@ namespace vegetation_sim::crowd {
 namespace {
 
 constexpr std::size_t WALKER_BYTES = 218, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
-constexpr std::size_t WAY_BYTES = 12, BORDER_BYTES = 20;
+constexpr std::size_t WAY_BYTES = 12, BORDER_BYTES = 30;
 constexpr std::size_t MOST_CORNERS = 4096;
 
 void archive(Archive& a, const char* name, Point& point) {
@@ -101,6 +101,10 @@ void archiveFields(Archive& a, CrowdBorder& border) {
       "heard", border.heard, MOST_SHARDS, 12,
       [&a](std::uint32_t& shard) { a.integer("shard", shard); },
       [&a](std::uint32_t, Nanoseconds& stamp) { a.stamp("stamp heard", stamp); });
+  a.integer("run", border.run);
+  a.flag("starts", border.starts);
+  a.flag("lists", border.lists);
+  a.list("ids", border.ids, 2 * MOST_WALKERS, 4, [&a](std::uint32_t& id) { a.integer("id", id); });
 }
 
 void archive(Archive& a, CrowdSnapshot& snapshot) {
@@ -130,6 +134,13 @@ void CrowdShard::archive(Archive& a) {
       [&a](std::uint32_t, CrowdBorder& border) { archiveFields(a, border); });
   archiveHanded(a, handed_);
   archivePeople(a, left_);
+  a.stamp("stamp of the last tick", last_);
+  a.integer("run", run_);
+  a.flag("starts", starts_);
+  if (!a.reads()) return;
+  fresh_ = false;
+  start_.clear();
+  waiting_.clear();
 }
 
 std::string archiveBorder(CrowdBorder border) {

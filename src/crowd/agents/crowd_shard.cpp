@@ -3,6 +3,7 @@
 #include "crowd/agents/crowd_shard.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace vegetation_sim::crowd {
@@ -12,17 +13,41 @@ constexpr double MOST_RADIUS = 1.0;  // of a person [m]
 
 }  // namespace
 
+CrowdBorder CrowdShard::begin(Start start) {
+  borders_.clear();
+  handed_.clear();
+  left_.clear();
+  waiting_.clear();
+  start_ = crowd_->takeOutside(owners_);
+  crowd_->setOthers({});
+  fresh_ = start == Start::FRESH;
+  starts_ = false;
+  std::vector<Walker> others = start_;
+  CrowdBorder out = endTick();
+  start_ = std::move(others);
+  return out;
+}
+
 CrowdBorder CrowdShard::endTick() {
   CrowdBorder out;
-  out.stamp = crowd_->snapshot().stamp;
+  out.stamp = last_ = crowd_->snapshot().stamp;
   const double margin = crowd_->snapshot().settings.sensor_range + 2.0 * MOST_RADIUS;
   for (const Walker& walker : crowd_->walkers())
     if (owners_.isNearOthers(walker.position, margin)) out.near.push_back(walker);
   left_ = crowd_->takeOutside(owners_);
+  start_.clear();
   for (const Walker& walker : left_)
     handed_.push_back({owners_.ownerAt(walker.position), out.stamp, walker});
   out.handed = handed_;
-  for (const auto& [shard, border] : borders_) out.heard[shard] = border.stamp;
+  out.run = run_;
+  out.starts = starts_;
+  for (const auto& [shard, border] : borders_) {
+    out.heard[shard] = border.stamp;
+    out.lists = out.lists || border.starts;
+  }
+  if (!out.lists) return out;
+  for (const Walker& walker : crowd_->walkers()) out.ids.push_back(walker.id);
+  for (const CrowdBorder::Handed& handed : handed_) out.ids.push_back(handed.walker.id);
   return out;
 }
 
@@ -33,6 +58,13 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
                        std::to_string(own.count) + " than this one, " + std::to_string(own.index));
   const auto last = borders_.find(shard);
   if (last != borders_.end() && border.stamp <= last->second.stamp) return;
+  if (fresh_ && !starts_ && border.stamp > 0) {
+    starts_ = true;
+    while (!crowd_->walkers().empty()) crowd_->remove(crowd_->walkers().back().id);
+    start_.clear();
+  }
+  if (isStarting()) run_ = std::max(run_, border.run);
+  if (border.run < run_) return;
   for (const CrowdBorder::Handed& handed : border.handed) {
     const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
     if (handed.to == own.index && is_new && !crowd_->find(handed.walker.id))
@@ -48,10 +80,47 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
   borders_[shard] = std::move(border);
 }
 
+std::optional<std::size_t> CrowdShard::spawnMissing(const std::vector<Spawn>& spawns) {
+  if (!starts_ || fresh_) return {};
+  std::set<std::uint32_t> elsewhere;
+  bool knows_all = true;
+  for (std::uint32_t i = 0; i < owners_.shard().count; ++i) {
+    if (i == owners_.shard().index) continue;
+    const auto found = borders_.find(i);
+    const bool runs =
+        found != borders_.end() && found->second.stamp >= last_ && !found->second.starts;
+    knows_all = knows_all && runs;
+    if (!runs) continue;
+    if (!found->second.lists) return {};
+    elsewhere.insert(found->second.ids.begin(), found->second.ids.end());
+  }
+  starts_ = false;
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < spawns.size(); ++i) {
+    const auto id = static_cast<std::uint32_t>(i);
+    if (elsewhere.count(id) > 0 || crowd_->find(id)) continue;
+    if (!knows_all && !owners_.owns(spawns[i].position)) continue;
+    crowd_->spawn(spawns[i], id);
+    ++out;
+  }
+  if (!elsewhere.empty()) crowd_->keepIdsFree(*elsewhere.rbegin());
+  return out;
+}
+
 void CrowdShard::beginTick() {
   std::vector<Walker> seen = left_;
   for (const auto& [shard, border] : borders_)
     seen.insert(seen.end(), border.near.begin(), border.near.end());
+  for (const Walker& walker : start_)
+    if (borders_.count(owners_.ownerAt(walker.position)) == 0) seen.push_back(walker);
+  waiting_.clear();
+  for (const CrowdBorder::Handed& handed : handed_) {
+    if (!waits(handed)) continue;
+    waiting_.push_back(handed.walker);
+    waiting_.back().velocity = {};
+    waiting_.back().turn_rate = 0.0;
+  }
+  seen.insert(seen.end(), waiting_.begin(), waiting_.end());
   seen.erase(std::remove_if(seen.begin(), seen.end(),
                             [this](const Walker& walker) { return crowd_->find(walker.id); }),
              seen.end());
@@ -62,13 +131,34 @@ void CrowdShard::beginTick() {
                          [](const Walker& a, const Walker& b) { return a.id == b.id; }),
              seen.end());
   crowd_->setOthers(std::move(seen));
+  fresh_ = false;
 }
 
-void CrowdShard::clear() {
-  borders_.clear();
-  handed_.clear();
-  left_.clear();
-  crowd_->setOthers({});
+// A shard that runs takes people in at the tick after that in which they have crossed the border,
+// and its next border says so.
+bool CrowdShard::waits(const CrowdBorder::Handed& handed) const {
+  const auto found = borders_.find(handed.to);
+  const bool runs = found != borders_.end() && found->second.stamp >= handed.stamp;
+  return !runs || handed.stamp < last_;
+}
+
+bool CrowdShard::removeWaiting(std::uint32_t id) {
+  const auto found = std::find_if(handed_.begin(), handed_.end(), [&](const auto& handed) {
+    return handed.walker.id == id && waits(handed);
+  });
+  if (found == handed_.end()) return false;
+  handed_.erase(found);
+  return true;
+}
+
+bool CrowdShard::mayHave(std::uint32_t id) const {
+  const auto is_it = [id](const Walker& walker) { return walker.id == id; };
+  const auto is_handed = [id](const auto& handed) { return handed.walker.id == id; };
+  return crowd_->find(id) || std::any_of(handed_.begin(), handed_.end(), is_handed) ||
+         std::any_of(borders_.begin(), borders_.end(), [&](const auto& entry) {
+           const std::vector<Walker>& near = entry.second.near;
+           return std::any_of(near.begin(), near.end(), is_it);
+         });
 }
 
 }  // namespace vegetation_sim::crowd

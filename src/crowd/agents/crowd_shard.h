@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,42 +24,79 @@ struct CrowdBorder {
   std::vector<Walker> near;    ///< those whom people of other shards may see, by rising id
   std::vector<Handed> handed;  ///< until their new shard has heard of them
   std::map<std::uint32_t, Nanoseconds> heard;  ///< stamps of the newest borders of other shards
+  std::uint32_t run{0};  ///< how often the crowd was reset; of an earlier run it counts no longer
+  bool starts{false};    ///< the shard has started while others run, and asks for `ids`
+  bool lists{false};     ///< `ids` are given
+  std::vector<std::uint32_t> ids;  ///< of the shard's people, and of those in `handed`
 };
 
 /// The part of a crowd that lives in the region of one shard. People see those of other shards near
 /// the border, as these were after the last tick, and change the shard with the tick in which they
 /// cross the border. So all shards together do what one crowd does, if each has the borders of all
 /// others after each tick. Differences come only from searches for ways around walls, whose limits
-/// and starts are those of each shard. People who come to a shard that is silent wait for it.
+/// and starts are those of each shard. People who come to a shard that is silent stand and wait.
 class CrowdShard {
  public:
+  /// How the crowd has come to be: at the start of the node or of the clock, when others may run
+  /// already, or by a reset, which is one in all shards.
+  enum class Start { FRESH, RESET };
+
   /// @param crowd must outlive it; holds the people of the region only.
   CrowdShard(Crowd& crowd, const Shard& shard)
       : crowd_(&crowd), owners_(crowd.snapshot().area, shard) {}
 
   const CrowdOwners& owners() const { return owners_; }
+  /// Begins with a crowd that has all people at their starts. Removes those of other regions,
+  /// forgets what others have said, and returns what they need.
+  CrowdBorder begin(Start start);
+  /// Number of resets, and sets it.
+  std::uint32_t run() const { return run_; }
+  void setRun(std::uint32_t run) { run_ = run; }
+  /// Whether the crowd has to begin anew before hear(), since the sender has been reset more often.
+  bool isResetBy(const CrowdBorder& border) const { return border.run > run_ && !isStarting(); }
   /// Removes the people who have left the region, and returns what the others need. To be called
-  /// once before the first tick, and after each.
+  /// after each tick.
   CrowdBorder endTick();
   /// Takes the border of another shard, and in those who come from there. One that is not newer
-  /// than the last is ignored. @throws InvalidInput for another shard than there are.
+  /// than the last, or from before a reset, is ignored. If the other shard has run before this one
+  /// was started, all people here go, until spawnMissing(). @throws InvalidInput for another shard
+  /// than there are.
   void hear(std::uint32_t shard, CrowdBorder border);
+  /// If the shard has started while others run, and these have listed their people: spawns those
+  /// whom none of them has, and returns their number. If one of them is silent or starts too, only
+  /// those whose start is here. To be called before beginTick(). @param spawns people by their ids.
+  std::optional<std::size_t> spawnMissing(const std::vector<Spawn>& spawns);
   /// Shows people those of others. To be called before Crowd::advance().
   void beginTick();
-  /// Forgets what others have said, because the crowd starts anew.
-  void clear();
-  /// Number of people who wait for another shard.
-  std::size_t waiting() const { return handed_.size(); }
+  /// People who are on the way to another shard.
+  const std::vector<CrowdBorder::Handed>& handed() const { return handed_; }
+  /// Those of them who had not been taken in time at the last beginTick(): they stand where they
+  /// have crossed the border.
+  const std::vector<Walker>& waiting() const { return waiting_; }
+  /// Removes a person who waits, before beginTick(). Returns false if there is none with this id.
+  bool removeWaiting(std::uint32_t id);
+  /// Whether the person is here, on the way to another shard, or could come from one at the next
+  /// tick.
+  bool mayHave(std::uint32_t id) const;
 
   /// State besides the crowd's.
   void archive(Archive& a);
 
  private:
+  bool isStarting() const { return fresh_ || starts_; }
+  bool waits(const CrowdBorder::Handed& handed) const;
+
   Crowd* crowd_;
   CrowdOwners owners_;
   std::map<std::uint32_t, CrowdBorder> borders_;  // of other shards, the newest
   std::vector<CrowdBorder::Handed> handed_;
-  std::vector<Walker> left_;  // after the last tick
+  std::vector<Walker> left_;   // after the last tick
+  std::vector<Walker> start_;  // people of other regions at their starts, until the first tick
+  std::vector<Walker> waiting_;
+  Nanoseconds last_{0};  // stamp of the last tick
+  std::uint32_t run_{0};
+  bool fresh_{false};   // no tick has run since the start
+  bool starts_{false};  // until spawnMissing()
 };
 
 /// A border as bytes, and back. @throws InvalidInput for bytes that are no border.

@@ -30,10 +30,10 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
-  join("crowd", listMessages<AgentStates, CrowdBorder>(), scenarioHash(),
+  join("crowd", listMessages<AgentStates, CrowdBorder, CrowdPart>(), peopleHash(),
        options_.scene.terrain->hash());
   if (options_.shard) shard_.emplace(crowd_, *options_.shard);
-  populate();
+  populate(crowd::CrowdShard::Start::FRESH);
   if (isPart()) {
     borders_ = HashedCache<CrowdBorder>(2 * std::size_t{options_.shard->count});
     inbox_ = std::make_unique<BorderInbox>(handle_, *options_.shard,
@@ -65,14 +65,11 @@ void AgentCrowd::connect() {
 }
 
 // Walkers of the scenario exist from the first tick on, so they are no events.
-void AgentCrowd::populate() {
+void AgentCrowd::populate(crowd::CrowdShard::Start start) {
   std::uint32_t id = 0;
   for (const crowd::Spawn& spawn : options_.scene.crowd.spawns) crowd_.spawn(spawn, id++);
   updateNextId();
-  if (!shard_) return;
-  crowd_.takeOutside(shard_->owners());
-  shard_->clear();
-  keepBorder();
+  if (shard_) keepBorder(shard_->begin(start));
 }
 
 // Ids of walkers that wait for their stamps are taken too.
@@ -99,8 +96,8 @@ void AgentCrowd::tick(std::int64_t) {
     hearBorders(stamp);
   }
   applyInputs(stamp);
+  beginTickOfShard();
   updateNextId();
-  if (shard_) shard_->beginTick();
   crowd_.advance(stamp);
   publishAgents(stamp);
   publishView(stamp);
@@ -132,13 +129,14 @@ void AgentCrowd::apply(CrowdEvent& event) {
       break;
     }
     case CrowdEvent::RESET:
-      resetCrowd();
+      if (shard_) shard_->setRun(shard_->run() + 1);
+      resetCrowd(crowd::CrowdShard::Start::RESET);
       break;
     case BORDER:
       applyBorder(event.input_hash);
       break;
     default:
-      applyToCrowd(event, crowd_);
+      if (!isPart() || isForThisShard(event)) applyToCrowd(event, crowd_);
   }
 }
 
@@ -182,9 +180,9 @@ void AgentCrowd::applyCover(std::uint64_t hash) {
 }
 
 // Trunks, grass and settings stay in force.
-void AgentCrowd::resetCrowd() {
+void AgentCrowd::resetCrowd(crowd::CrowdShard::Start start) {
   crowd_.clear();
-  populate();
+  populate(start);
   robots_.clear();
   trodden_.clear();
 }
@@ -194,8 +192,8 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 }
 
 void AgentCrowd::restart() {
-  resetCrowd();
-  if (inbox_) inbox_->clear();
+  resetCrowd(crowd::CrowdShard::Start::FRESH);
+  if (inbox_) inbox_->jumpBack();
   parts_.clear();
   last_parts_.clear();
   joined_ = 0;

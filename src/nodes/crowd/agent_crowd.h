@@ -8,6 +8,7 @@
 #include <vegetation_sim/CrowdBorder.h>
 #include <vegetation_sim/CrowdEvent.h>
 #include <vegetation_sim/CrowdPart.h>
+#include <vegetation_sim/FindAgents.h>
 #include <vegetation_sim/ForestLayout.h>
 #include <vegetation_sim/NearAgents.h>
 #include <vegetation_sim/RemoveAgents.h>
@@ -57,9 +58,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void enqueueHash(std::uint8_t kind, std::uint64_t hash);
 
   // Time.
-  static constexpr std::uint8_t BORDER = 10;    // kind of events: see CrowdEvent
-  static constexpr std::size_t MOST_PARTS = 2;  // ticks that wait for people of other shards
-  void populate();
+  static constexpr std::uint8_t BORDER = 10;  // kind of events: see CrowdEvent
+  static constexpr int MOST_PARTS = 2;        // ticks that wait for people of other shards
+  void populate(crowd::CrowdShard::Start start);
   void updateNextId();
   /// Number of walkers that wait for their stamps.
   std::size_t waitingWalkers() const;
@@ -78,7 +79,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void surround(const Surroundings& around);
   void applyTrunks(std::uint64_t hash);
   void applyCover(std::uint64_t hash);
-  void resetCrowd();
+  void resetCrowd(crowd::CrowdShard::Start start);
   void restart() override;
   void onRecovered(const CrowdEvent&) override { updateNextId(); }
 
@@ -94,16 +95,28 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   // Shards.
   std::uint64_t scenarioHash() const;
+  /// That, and the people of the scenario.
+  std::uint64_t peopleHash() const;
   void connectServices();
   std::vector<std::uint32_t> ownersOfPlace(const SpawnAgents::Request& request);
+  /// Returns the shards that answer, and fills in `ids` for all. @throws InvalidInput as a single
+  /// node would, and for people whom a silent shard may have.
+  std::vector<std::uint32_t> findOwners(FindAgents::Request& request);
+  bool onFind(FindAgents::Request& request, FindAgents::Response& response);
+  bool isForThisShard(const CrowdEvent& event);
+  /// Whether the person is on the way to another shard.
+  bool isHanded(std::uint32_t id) const;
+  std::vector<std::uint32_t> allIds() const;
   std::uint32_t takeId();
   void hearBorders(Nanoseconds stamp);
   void applyBorder(std::uint64_t hash);
+  void beginTickOfShard();
   void endTickOfShard();
-  void keepBorder();
+  void keepBorder(const crowd::CrowdBorder& after_tick);
   void publishBorder();
   void onPart(const CrowdPart& message);
-  void addPart(Nanoseconds stamp, std::uint32_t shard, const AgentStates& people);
+  void addPart(const CrowdPart& part);
+  void publishParts();
   void publishJoined(const AgentStates& all);
   /// One node shows the people of all shards.
   bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
@@ -111,6 +124,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   // Outputs.
   AgentStates agentsAt(Nanoseconds stamp) const;
+  void publishPart(Nanoseconds stamp);
   void publishAgents(Nanoseconds stamp);
   void publishNear(const AgentStates& all);
   void publishView(Nanoseconds stamp);
@@ -132,7 +146,15 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   bool onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response);
   bool onRemove(RemoveAgents::Request& request, RemoveAgents::Response& response);
   bool onSetGoal(SetAgentGoal::Request& request, SetAgentGoal::Response& response);
+  static void checkNumber(const std::vector<std::uint32_t>& ids, Faults& faults);
+  static void addUnknown(std::uint32_t id, Faults& faults);
+  /// The place of a request in the world frame. @param to_world pose of its frame.
+  static crowd::Point placeInWorld(const geometry_msgs::Point& point, const Pose& to_world);
+  /// @throws InvalidInput for ids that no walker has; in a shard those asked for are known.
   void checkKnown(const std::vector<std::uint32_t>& ids) const;
+  /// Leaves the ids of those whom this shard may have at the next tick. Returns the number of those
+  /// whom it has now.
+  std::size_t keepOwn(std::vector<std::uint32_t>& ids) const;
   /// Queues an event for each of the ids. @throws InvalidInput, before any, if they have no room.
   void enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>& ids);
 
@@ -140,8 +162,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
   HashedCache<CrowdBorder> borders_;
-  using Parts = std::map<std::uint32_t, AgentStates>;  // by shard
-  std::map<Nanoseconds, Parts> parts_;                 // by stamp, that wait for other shards
+  using Parts = std::map<std::uint32_t, CrowdPart>;  // by shard
+  std::map<Nanoseconds, Parts> parts_;               // by stamp, that wait for other shards
   Parts last_parts_;
   Nanoseconds joined_{0};  // stamp of the last people of all shards
   CrowdMarkers markers_;

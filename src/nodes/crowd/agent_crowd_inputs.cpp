@@ -1,5 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "nodes/crowd/agent_crowd.h"
@@ -13,12 +14,12 @@ namespace {
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
 
-crowd::Point placeInWorld(const geometry_msgs::Point& point, const Pose& to_world) {
+}  // namespace
+
+crowd::Point AgentCrowd::placeInWorld(const geometry_msgs::Point& point, const Pose& to_world) {
   const Vec3 out = transformed(to_world, Vec3(point.x, point.y, 0.0));
   return {out.x(), out.y()};
 }
-
-}  // namespace
 
 void AgentCrowd::enqueueHash(std::uint8_t kind, std::uint64_t hash) {
   CrowdEvent event;
@@ -76,14 +77,31 @@ void AgentCrowd::enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>&
   }
 }
 
-void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
-  Faults faults;
+void AgentCrowd::checkNumber(const std::vector<std::uint32_t>& ids, Faults& faults) {
   if (ids.empty() || ids.size() > EventQueue<CrowdEvent>::MOST_WAITING)
     faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to 10000");
+}
+
+void AgentCrowd::addUnknown(std::uint32_t id, Faults& faults) {
+  faults.add("ids: walker " + std::to_string(id) + " is unknown", FaultCode::UNKNOWN);
+}
+
+void AgentCrowd::checkKnown(const std::vector<std::uint32_t>& ids) const {
+  Faults faults;
+  checkNumber(ids, faults);
   for (const std::uint32_t id : ids)
-    if (!crowd_.find(id))
-      faults.add("ids: walker " + std::to_string(id) + " is unknown", FaultCode::UNKNOWN);
+    if (!isPart() && !crowd_.find(id)) addUnknown(id, faults);
   faults.throwIfAny();
+}
+
+std::size_t AgentCrowd::keepOwn(std::vector<std::uint32_t>& ids) const {
+  if (!isPart()) return ids.size();
+  ids.erase(std::remove_if(ids.begin(), ids.end(),
+                           [this](std::uint32_t id) { return !shard_->mayHave(id); }),
+            ids.end());
+  return static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [this](std::uint32_t id) {
+    return crowd_.find(id) || isHanded(id);
+  }));
 }
 
 bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response) {
@@ -135,16 +153,14 @@ bool AgentCrowd::onRemove(RemoveAgents::Request& request, RemoveAgents::Response
   return answer(response, [&]() -> std::string {
     refuseInReplay();
     std::vector<std::uint32_t> ids = request.ids;
-    if (request.all) {
-      ids.clear();
-      for (const crowd::Walker& walker : crowd_.walkers()) ids.push_back(walker.id);
-      if (ids.empty()) return "there are no walkers";
-    }
+    if (request.all) ids = allIds();
+    if (request.all && ids.empty()) return "there are no walkers";
     checkKnown(ids);
+    const std::size_t here = keepOwn(ids);
     CrowdEvent event;
     event.kind = CrowdEvent::REMOVE;
     enqueueEach(event, ids);
-    return std::to_string(ids.size()) + " walkers go at the next tick";
+    return std::to_string(here) + " walkers go at the next tick";
   });
 }
 
@@ -159,8 +175,10 @@ bool AgentCrowd::onSetGoal(SetAgentGoal::Request& request, SetAgentGoal::Respons
       const crowd::Point goal =
           placeInWorld(request.goal.point, poseOf(request.goal.header.frame_id));
       event.spawn.goal = toPoint(Vec3(goal.x, goal.y, 0.0));
-      for (const std::uint32_t id : request.ids) crowd_.checkGoal(id, goal);
+      for (const std::uint32_t id : request.ids)
+        if (crowd_.find(id)) crowd_.checkGoal(id, goal);
     }
+    keepOwn(request.ids);
     enqueueEach(event, request.ids);
     return "takes effect at the next tick";
   });

@@ -31,16 +31,22 @@ AgentStates AgentCrowd::agentsAt(Nanoseconds stamp) const {
   return message;
 }
 
-void AgentCrowd::publishAgents(Nanoseconds stamp) {
-  if (isPart() && showsAll()) {
-    if (!recovers() && stamp > joined_) addPart(stamp, 0, agentsAt(stamp));
-    return;
-  }
-  if (isPart()) {
-    CrowdPart part;
-    part.shard = options_.shard->index;
-    part.people = agentsAt(stamp);
+void AgentCrowd::publishPart(Nanoseconds stamp) {
+  if (showsAll() && (recovers() || stamp <= joined_)) return;
+  CrowdPart part;
+  part.shard = options_.shard->index;
+  part.people = agentsAt(stamp);
+  for (const crowd::Walker& walker : shard_->waiting())
+    part.waiting.push_back(toMsg(walker, crowd_.terrain()));
+  if (showsAll())
+    addPart(part);
+  else
     parts_publisher_.publish(part);
+}
+
+void AgentCrowd::publishAgents(Nanoseconds stamp) {
+  if (isPart()) {
+    publishPart(stamp);
     return;
   }
   if (agents_publisher_.getNumSubscribers() + near_publisher_.getNumSubscribers() == 0) return;
@@ -211,7 +217,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Robots without a transform", robots_.missing().size());
   status.add("Transforms too late for their tick", robots_.late());
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
-  status.add("People who wait for another shard", shard_ ? shard_->waiting() : 0);
+  status.add("People who wait for another shard", shard_ ? shard_->waiting().size() : 0);
   status.add("Borders of shards too late for their tick", inbox_ ? inbox_->late() : 0);
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);

@@ -1,6 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // The services of the node, which shards answer them, and what shards send to each other.
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <utility>
+
 #include "nodes/crowd/agent_crowd.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -8,16 +14,7 @@
 namespace vegetation_sim {
 namespace {
 
-// Any response that is no refusal. A shard that does not answer may have the people.
-template <class Response>
-Response takeAny(const std::vector<ShardReply<Response>>& replies) {
-  const ShardReply<Response>* out = &replies.front();
-  for (const ShardReply<Response>& reply : replies) {
-    if (reply.response.success) return reply.response;
-    if (reply.response.error_code == ErrorCode::NOT_AVAILABLE) out = &reply;
-  }
-  return out->response;
-}
+constexpr double MOST_AHEAD = 10.0;  // of the people of another shard [s]
 
 }  // namespace
 
@@ -26,10 +23,109 @@ void AgentCrowd::connectServices() {
       "spawn", &AgentCrowd::onSpawn,
       [this](const SpawnAgents::Request& request) { return ownersOfPlace(request); },
       Repeat::FORBIDDEN);
-  serveShared("remove", &AgentCrowd::onRemove, toAllShards<RemoveAgents::Request>(),
-              Repeat::FORBIDDEN, takeAny<RemoveAgents::Response>);
-  serveShared("set_goal", &AgentCrowd::onSetGoal, toAllShards<SetAgentGoal::Request>(),
-              Repeat::ALLOWED, takeAny<SetAgentGoal::Response>);
+  serveShared(
+      "remove", &AgentCrowd::onRemove,
+      [this](RemoveAgents::Request& request) {
+        FindAgents::Request find;
+        find.ids = request.ids;
+        find.all = request.all;
+        const std::vector<std::uint32_t> owners = findOwners(find);
+        request.ids = find.ids;
+        request.all = find.ids.empty();
+        return owners;
+      },
+      Repeat::FORBIDDEN, joinReplies<RemoveAgents::Response>);
+  serveShared(
+      "set_goal", &AgentCrowd::onSetGoal,
+      [this](const SetAgentGoal::Request& request) {
+        FindAgents::Request find;
+        find.ids = request.ids;
+        find.has_goal = !request.wander;
+        find.goal = request.goal;
+        return findOwners(find);
+      },
+      Repeat::ALLOWED, joinReplies<SetAgentGoal::Response>);
+  if (shards()) serve("owned/find_agents", &AgentCrowd::onFind);
+}
+
+// A request is refused as a whole or carried out for all of its walkers, as by one node. Those who
+// cross a border meanwhile are found by all shards that may have them.
+std::vector<std::uint32_t> AgentCrowd::findOwners(FindAgents::Request& request) {
+  std::vector<std::uint32_t> all(options_.shard->count), out;
+  std::iota(all.begin(), all.end(), 0U);
+  const auto replies = askShards<FindAgents::Request, FindAgents::Response>(
+      "find_agents", all, request, Repeat::ALLOWED,
+      [this](FindAgents::Request& own, FindAgents::Response& response) { onFind(own, response); });
+  std::set<std::uint32_t> found;
+  const FindAgents::Response* silent = nullptr;
+  for (const auto& [shard, response] : replies) {
+    if (response.success) {
+      out.push_back(shard);
+      found.insert(response.ids.begin(), response.ids.end());
+    } else if (response.error_code == ErrorCode::NOT_AVAILABLE) {
+      silent = &response;
+    } else {
+      throw InvalidInput(response.message, static_cast<FaultCode>(response.error_code));
+    }
+  }
+  if (request.all) request.ids.assign(found.begin(), found.end());
+  Faults faults;
+  if (!request.all || !found.empty()) checkNumber(request.ids, faults);
+  faults.throwIfAny();
+  for (const std::uint32_t id : request.ids)
+    if (found.count(id) == 0) addUnknown(id, faults);
+  if (silent && (request.all || !faults.empty()))
+    throw InvalidInput(silent->message, FaultCode::NOT_AVAILABLE);
+  faults.throwIfAny();
+  return out;
+}
+
+bool AgentCrowd::onFind(FindAgents::Request& request, FindAgents::Response& response) {
+  return answer(response, [&]() -> std::string {
+    refuseInReplay();
+    for (const crowd::Walker& walker : shard_->waiting())
+      if (request.all ||
+          std::find(request.ids.begin(), request.ids.end(), walker.id) != request.ids.end())
+        throw InvalidInput(
+            "walker " + std::to_string(walker.id) + " waits for " +
+                describeShard(shard_->owners().ownerAt(walker.position), options_.shard->count) +
+                ", which is silent",
+            FaultCode::NOT_AVAILABLE);
+    std::vector<std::uint32_t> ids = request.ids;
+    if (request.all) ids = allIds();
+    crowd::Point goal;
+    if (request.has_goal)
+      goal = placeInWorld(request.goal.point, poseOf(request.goal.header.frame_id));
+    for (const std::uint32_t id : ids) {
+      const bool is_here = crowd_.find(id) != nullptr;
+      if (is_here && request.has_goal) crowd_.checkGoal(id, goal);
+      if (is_here || isHanded(id)) response.ids.push_back(id);
+    }
+    return std::to_string(response.ids.size()) + " of them are here";
+  });
+}
+
+// Other shards are sent the same events for those who may have crossed the border.
+bool AgentCrowd::isForThisShard(const CrowdEvent& event) {
+  if (event.kind != CrowdEvent::REMOVE && event.kind != CrowdEvent::GOAL) return true;
+  if (crowd_.find(event.id)) return true;
+  if (event.kind == CrowdEvent::REMOVE) shard_->removeWaiting(event.id);
+  return false;
+}
+
+bool AgentCrowd::isHanded(std::uint32_t id) const {
+  const auto& all = shard_->handed();
+  return std::any_of(all.begin(), all.end(),
+                     [id](const auto& handed) { return handed.walker.id == id; });
+}
+
+// Those on the way to another shard are among them.
+std::vector<std::uint32_t> AgentCrowd::allIds() const {
+  std::vector<std::uint32_t> out;
+  for (const crowd::Walker& walker : crowd_.walkers()) out.push_back(walker.id);
+  if (!isPart()) return out;
+  for (const auto& handed : shard_->handed()) out.push_back(handed.walker.id);
+  return out;
 }
 
 std::vector<std::uint32_t> AgentCrowd::ownersOfPlace(const SpawnAgents::Request& request) {
@@ -50,17 +146,19 @@ std::uint32_t AgentCrowd::takeId() {
   return out;
 }
 
+// Borders come first, by rising shard: requests are for those who are here then.
 void AgentCrowd::hearBorders(Nanoseconds stamp) {
   if (!inbox_) return;
   const crowd::CrowdSnapshot& state = crowd_.snapshot();
-  for (const CrowdBorder& border : inbox_->take(state.begun ? state.stamp : 0, stamp)) {
+  const std::vector<CrowdBorder> taken = inbox_->take(state.begun ? state.stamp : 0, stamp);
+  for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
     Hash hash;
-    hash.add(bytesOf(border));
-    borders_.keep(hash.value(), border);
+    hash.add(bytesOf(*border));
+    borders_.keep(hash.value(), *border);
     CrowdEvent event;
     event.kind = BORDER;
     event.input_hash = hash.value();
-    inputs_.add(event);
+    inputs_.addFirst(event);
   }
 }
 
@@ -68,18 +166,33 @@ void AgentCrowd::applyBorder(std::uint64_t hash) {
   const CrowdBorder* found = borders_.find(hash);
   if (!found || !shard_)
     throw InvalidInput("input_hash = " + std::to_string(hash) + " matches no border received");
-  shard_->hear(found->shard, crowd::readBorder({found->border.begin(), found->border.end()}));
+  crowd::CrowdBorder border = crowd::readBorder({found->border.begin(), found->border.end()});
+  if (shard_->isResetBy(border)) {
+    shard_->setRun(border.run);
+    resetCrowd(crowd::CrowdShard::Start::RESET);
+  }
+  shard_->hear(found->shard, std::move(border));
+}
+
+void AgentCrowd::beginTickOfShard() {
+  if (!shard_) return;
+  if (const auto spawned = shard_->spawnMissing(options_.scene.crowd.spawns))
+    ROS_WARN(
+        "%s: started without its people while other shards run; %zu that none of them has "
+        "begin anew",
+        name_.c_str(), *spawned);
+  shard_->beginTick();
 }
 
 void AgentCrowd::endTickOfShard() {
   if (!shard_) return;
-  keepBorder();
+  keepBorder(shard_->endTick());
   publishBorder();
 }
 
-void AgentCrowd::keepBorder() {
-  const Nanoseconds stamp = crowd_.snapshot().stamp;
-  SentBorder border{stamp, crowd::archiveBorder(shard_->endTick())};
+void AgentCrowd::keepBorder(const crowd::CrowdBorder& after_tick) {
+  const Nanoseconds stamp = after_tick.stamp;
+  SentBorder border{stamp, crowd::archiveBorder(after_tick)};
   previous_border_ = stamp > border_.stamp ? std::move(border_) : SentBorder();
   border_ = std::move(border);
 }
@@ -103,39 +216,65 @@ void AgentCrowd::onPart(const CrowdPart& message) {
     if (message.shard == 0 || message.shard >= options_.shard->count)
       throw InvalidInput("shard = " + std::to_string(message.shard) + " is outside 1 to " +
                          std::to_string(options_.shard->count - 1));
+    const TickGrid& grid = clock_.grid();
+    if (grid.timeOf(grid.tickAt(stamp)) != stamp)
+      throw InvalidInput("stamp = " + std::to_string(stamp) + " ns is not that of a tick");
+    const double ahead = secondsBetween(lastStamp(), stamp);
+    if (clock_.hasBegun() && ahead > MOST_AHEAD)
+      throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
+                         std::to_string(MOST_AHEAD) + " s");
+    checkFrame(message.people.header.frame_id, options_.frame_id);
+    check(message.people.agents);
+    check(message.waiting);
     if (stamp <= joined_) return;  // its tick was published without it
-    addPart(stamp, message.shard, message.people);
+    addPart(message);
   });
 }
 
 // The people of a tick are published once those of all shards have come. Earlier ticks are then
-// past: each shard sends its own in order. Those of a silent shard stand as they were last.
-void AgentCrowd::addPart(Nanoseconds stamp, std::uint32_t shard, const AgentStates& people) {
-  const auto tick = parts_.emplace(stamp, Parts()).first;
-  tick->second[shard] = people;
+// past: each shard sends its own in order. Those of a silent shard stand as they were last. Only
+// ticks of this shard decide that another is silent.
+void AgentCrowd::addPart(const CrowdPart& part) {
+  const auto tick = parts_.emplace(fromMsg(part.people.header.stamp), Parts()).first;
+  tick->second[part.shard] = part;
   if (tick->second.size() == options_.shard->count) {
     parts_.erase(parts_.begin(), tick);
-  } else if (parts_.size() <= MOST_PARTS) {
-    return;
+    publishParts();
   }
+  const auto past = [this] {
+    return std::distance(parts_.begin(), parts_.upper_bound(lastStamp()));
+  };
+  while (clock_.hasBegun() && past() > MOST_PARTS) publishParts();
+  if (!clock_.hasBegun())
+    while (parts_.size() > MOST_PARTS) parts_.erase(parts_.begin());
+}
+
+// Publishes the people of the earliest tick.
+void AgentCrowd::publishParts() {
   Parts fresh = std::move(parts_.begin()->second);
   joined_ = parts_.begin()->first;
   parts_.erase(parts_.begin());
   AgentStates all;
   all.header.stamp = toStamp(joined_);
   all.header.frame_id = options_.frame_id;
-  const auto add = [&all](const AgentStates& part) {
-    all.hash += part.hash;
-    all.agents.insert(all.agents.end(), part.agents.begin(), part.agents.end());
+  const auto add = [&all](const std::vector<AgentState>& people) {
+    all.agents.insert(all.agents.end(), people.begin(), people.end());
   };
-  for (const auto& entry : fresh) add(entry.second);
-  for (const auto& [owner, part] : last_parts_)
-    if (fresh.count(owner) == 0) add(part);
+  Parts last = std::exchange(last_parts_, {});
+  for (auto& [owner, part] : fresh) last[owner] = std::move(part);
+  for (const auto& entry : last) all.hash += entry.second.people.hash;
+  // Of a person in several lists, the first counts.
+  for (const auto& entry : last)
+    if (fresh.count(entry.first) > 0) add(entry.second.people.agents);
+  for (const auto& entry : last)
+    if (fresh.count(entry.first) > 0) add(entry.second.waiting);
+  for (const auto& entry : last)
+    if (fresh.count(entry.first) == 0) add(entry.second.people.agents);
   const auto is_before = [](const AgentState& a, const AgentState& b) { return a.id < b.id; };
   std::stable_sort(all.agents.begin(), all.agents.end(), is_before);
   const auto is_same = [](const AgentState& a, const AgentState& b) { return a.id == b.id; };
   all.agents.erase(std::unique(all.agents.begin(), all.agents.end(), is_same), all.agents.end());
-  for (auto& [owner, part] : fresh) last_parts_[owner] = std::move(part);
+  last_parts_ = std::move(last);
   publishJoined(all);
 }
 

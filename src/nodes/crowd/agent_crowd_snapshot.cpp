@@ -67,6 +67,19 @@ std::uint64_t AgentCrowd::scenarioHash() const {
   return hash.value();
 }
 
+std::uint64_t AgentCrowd::peopleHash() const {
+  Hash hash;
+  hash.add(scenarioHash());
+  FieldHasher fields(hash);
+  for (crowd::Spawn spawn : options_.scene.crowd.spawns) {
+    describe(fields, spawn);
+    hash.add(std::uint64_t{spawn.wanders} | std::uint64_t{spawn.has_goal} << 1);
+    hash.add(spawn.goal.x);
+    hash.add(spawn.goal.y);
+  }
+  return hash.value();
+}
+
 void AgentCrowd::writeState(Archive& a) const {
   std::string state = crowd_.archived(), layout, cover;
   std::uint64_t trunks_hash = trunks_hash_, cover_hash = cover_hash_;
@@ -97,6 +110,8 @@ CheckedState AgentCrowd::readState(Archive& a) {
   SentBorder border, previous_border;
   if (shard) {
     shard->archive(a);
+    // A loaded state is of the present run; one of a checkpoint, of its own.
+    if (clock_.hasBegun()) shard->setRun(shard_->run());
     archive(a, border);
     archive(a, previous_border);
   }

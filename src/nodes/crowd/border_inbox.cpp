@@ -15,7 +15,7 @@ constexpr unsigned BORDER_QUEUE = 1000;
 }  // namespace
 
 BorderInbox::BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait)
-    : shard_(shard), wait_(wait), borders_(shard) {
+    : wait_(wait), borders_(shard) {
   handle.setCallbackQueue(&queue_);
   const boost::function<void(const CrowdBorder&)> callback = [this](const CrowdBorder& message) {
     borders_.add(message);
@@ -25,13 +25,14 @@ BorderInbox::BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait
 
 std::vector<CrowdBorder> BorderInbox::take(Nanoseconds before, Nanoseconds now) {
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(wait_);
+  borders_.beginTick(before, now);
   queue_.callAvailable();
-  while (!borders_.hasAll(before) && ros::WallTime::now() < deadline) {
+  while (!borders_.hasAll() && ros::WallTime::now() < deadline) {
     ros::WallDuration(BORDER_POLL).sleep();
     queue_.callAvailable();
   }
-  late_ += borders_.dropLate(before);
-  return borders_.take(now);
+  late_ += borders_.dropLate();
+  return borders_.take();
 }
 
 }  // namespace vegetation_sim

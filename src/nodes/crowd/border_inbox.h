@@ -19,13 +19,12 @@ class BorderInbox {
   /// Returns the newest border of each shard that is earlier than the tick `now`, by rising shard.
   /// @param before stamp of the tick before, for whose borders it waits; 0: any.
   std::vector<CrowdBorder> take(Nanoseconds before, Nanoseconds now);
-  /// Forgets all borders, after a jump of time.
-  void clear() { borders_ = WaitingBorders(shard_); }
+  /// Forgets the borders from before a jump back of the clock.
+  void jumpBack() { borders_.jumpBack(); }
   /// Number of borders that have not come in time.
   std::size_t late() const { return late_; }
 
  private:
-  Shard shard_;
   double wait_;
   WaitingBorders borders_;
   std::size_t late_{0};

@@ -3,6 +3,7 @@
 #include "nodes/crowd/waiting_borders.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -12,6 +13,35 @@ namespace {
 
 constexpr std::size_t MOST_BORDERS = 100;  // of one shard that wait for their tick
 
+Nanoseconds stampOf(const CrowdBorder& border) {
+  return fromMsg(border.header.stamp);
+}
+
+// The border of a message, and before it that after the tick before, if it has a later stamp than
+// `last`.
+std::vector<CrowdBorder> split(const CrowdBorder& message, std::optional<Nanoseconds> last) {
+  std::vector<CrowdBorder> out;
+  CrowdBorder newer = message, previous = message;
+  newer.previous_stamp = previous.previous_stamp = ros::Time();
+  newer.previous_border.clear();
+  previous.header.stamp = message.previous_stamp;
+  previous.border = std::exchange(previous.previous_border, {});
+  const bool continues = !last || *last < stampOf(previous);
+  if (!previous.border.empty() && stampOf(previous) < stampOf(newer) && continues)
+    out.push_back(std::move(previous));
+  out.push_back(std::move(newer));
+  return out;
+}
+
+// Appends borders after those that are older.
+void append(std::vector<CrowdBorder> borders, std::vector<CrowdBorder>& all) {
+  const Nanoseconds first = stampOf(borders.front());
+  while (!all.empty() && stampOf(all.back()) >= first) all.pop_back();
+  all.insert(all.end(), std::make_move_iterator(borders.begin()),
+             std::make_move_iterator(borders.end()));
+  if (all.size() > MOST_BORDERS) all.erase(all.begin(), all.end() - MOST_BORDERS);
+}
+
 }  // namespace
 
 WaitingBorders::WaitingBorders(const Shard& shard) : shard_(shard) {
@@ -19,56 +49,75 @@ WaitingBorders::WaitingBorders(const Shard& shard) : shard_(shard) {
     if (i != shard_.index) expected_.insert(i);
 }
 
+void WaitingBorders::beginTick(Nanoseconds before, Nanoseconds now) {
+  before_ = before;
+  now_ = now;
+}
+
 void WaitingBorders::add(const CrowdBorder& message) {
   const std::uint32_t shard = message.shard;
   if (shard == shard_.index || shard >= shard_.count || message.shards != shard_.count) return;
-  CrowdBorder newer = message, previous = message;
-  newer.previous_stamp = previous.previous_stamp = ros::Time();
-  newer.previous_border.clear();
-  previous.header.stamp = message.previous_stamp;
-  previous.border = std::exchange(previous.previous_border, {});
-  // A clock that has jumped back sends older borders, which replace the newer.
-  const auto last = newest_.find(shard);
-  const bool is_first = last == newest_.end();
-  const bool continues = is_first || last->second < fromMsg(previous.header.stamp);
-  std::vector<CrowdBorder>& waiting = waiting_[shard];
-  if (!previous.border.empty() && previous.header.stamp < newer.header.stamp && continues)
-    waiting.push_back(std::move(previous));
-  newest_[shard] = fromMsg(newer.header.stamp);
-  waiting.push_back(std::move(newer));
-  if (waiting.size() > MOST_BORDERS) waiting.erase(waiting.begin(), waiting.end() - MOST_BORDERS);
+  const Nanoseconds stamp = stampOf(message);
+  if (now_ != 0 && stamp > now_ + fromSeconds(MOST_AHEAD)) return;
+  Sent& sent = sent_[shard];
+  std::vector<CrowdBorder> borders = split(message, sent.newest);
+  if (sent.has_to_jump && stampOf(borders.front()) >= now_) return;
+  sent.has_to_jump = false;
+  if (sent.newest && stamp < *sent.newest && stamp < before_) {
+    append(split(message, {}), sent.after_jump);
+    return;
+  }
+  sent.after_jump.clear();
+  sent.newest = stamp;
+  append(std::move(borders), sent.waiting);
   expected_.insert(shard);
 }
 
-bool WaitingBorders::hasAll(Nanoseconds before) const {
-  return std::all_of(expected_.begin(), expected_.end(), [&](std::uint32_t shard) {
-    const auto found = newest_.find(shard);
-    return found != newest_.end() && found->second >= before;
-  });
+bool WaitingBorders::hasCome(std::uint32_t shard) const {
+  const auto found = sent_.find(shard);
+  return found != sent_.end() && found->second.newest && *found->second.newest >= before_;
 }
 
-std::size_t WaitingBorders::dropLate(Nanoseconds before) {
+bool WaitingBorders::hasAll() const {
+  return std::all_of(expected_.begin(), expected_.end(),
+                     [this](std::uint32_t shard) { return hasCome(shard); });
+}
+
+std::size_t WaitingBorders::dropLate() {
   std::size_t out = 0;
   for (auto shard = expected_.begin(); shard != expected_.end();) {
-    const auto found = newest_.find(*shard);
-    const bool has_come = found != newest_.end() && found->second >= before;
+    const bool has_come = hasCome(*shard);
     out += has_come ? 0 : 1;
     shard = has_come ? std::next(shard) : expected_.erase(shard);
   }
   return out;
 }
 
-std::vector<CrowdBorder> WaitingBorders::take(Nanoseconds now) {
+std::vector<CrowdBorder> WaitingBorders::take() {
   std::vector<CrowdBorder> out;
-  for (auto& [shard, waiting] : waiting_) {
-    const auto later = std::find_if(waiting.begin(), waiting.end(), [&](const CrowdBorder& one) {
-      return fromMsg(one.header.stamp) >= now;
+  for (auto& entry : sent_) {
+    std::vector<CrowdBorder>& waiting = entry.second.waiting;
+    const auto later = std::find_if(waiting.begin(), waiting.end(), [this](const CrowdBorder& one) {
+      return stampOf(one) >= now_;
     });
     if (later == waiting.begin()) continue;
     out.push_back(std::move(*std::prev(later)));
     waiting.erase(waiting.begin(), later);
   }
   return out;
+}
+
+void WaitingBorders::jumpBack() {
+  for (std::uint32_t i = 0; i < shard_.count; ++i) {
+    if (i == shard_.index) continue;
+    expected_.insert(i);
+    Sent& sent = sent_[i];
+    const bool had_sent = sent.newest.has_value();
+    sent.waiting = std::exchange(sent.after_jump, {});
+    sent.newest.reset();
+    if (!sent.waiting.empty()) sent.newest = stampOf(sent.waiting.back());
+    sent.has_to_jump = had_sent && sent.waiting.empty();
+  }
 }
 
 }  // namespace vegetation_sim

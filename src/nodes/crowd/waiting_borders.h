@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -15,27 +16,45 @@
 namespace vegetation_sim {
 
 /// The borders that the other shards of a crowd have sent, until their ticks. A shard may be one
-/// tick ahead, and the first message from it may come then, so that each holds two borders.
+/// tick ahead, and the first message from it may come then, so that each holds two borders. When
+/// the clock jumps back, the other shards may see it before this one or after.
 class WaitingBorders {
  public:
+  static constexpr double MOST_AHEAD = 10.0;  ///< of a border, after the tick that waits [s]
+
   /// Expects each of the other shards.
   explicit WaitingBorders(const Shard& shard);
 
+  /// Begins to wait for the tick `now`. @param before stamp of the tick before; 0: there was none.
+  void beginTick(Nanoseconds before, Nanoseconds now);
   /// Keeps the borders of a message that are newer than those which its shard has sent. Those of
-  /// this shard, of unknown shards and of another number of shards are ignored.
+  /// this shard, of unknown shards, of another number of shards, and stamped more than
+  /// MOST_AHEAD after the tick are ignored. An older one replaces those that are not older: if
+  /// it is earlier than the tick before, at the next jump of the clock.
   void add(const CrowdBorder& message);
-  /// Whether each expected shard has sent the border after the tick at `before`, or a later one.
-  bool hasAll(Nanoseconds before) const;
+  /// Whether each expected shard has sent the border after the tick before, or a later one.
+  bool hasAll() const;
   /// Expects the others no longer until they send again. Returns their number.
-  std::size_t dropLate(Nanoseconds before);
-  /// Returns the newest border of each shard that is earlier than the tick `now`, by rising shard.
-  std::vector<CrowdBorder> take(Nanoseconds now);
+  std::size_t dropLate();
+  /// Returns the newest border of each shard that is earlier than the tick, by rising shard.
+  std::vector<CrowdBorder> take();
+  /// Expects the borders from after a jump back of the clock instead.
+  void jumpBack();
 
  private:
+  /// What a shard has sent.
+  struct Sent {
+    std::vector<CrowdBorder> waiting;     // by rising stamp
+    std::vector<CrowdBorder> after_jump;  // that this node has not seen yet
+    std::optional<Nanoseconds> newest;    // stamp
+    bool has_to_jump{false};              // newer ones are from before the jump
+  };
+  bool hasCome(std::uint32_t shard) const;
+
   Shard shard_;
-  std::map<std::uint32_t, std::vector<CrowdBorder>> waiting_;  // by shard, by rising stamp
-  std::map<std::uint32_t, Nanoseconds> newest_;                // stamps by shard
-  std::set<std::uint32_t> expected_;                           // shards
+  Nanoseconds before_{0}, now_{0};
+  std::map<std::uint32_t, Sent> sent_;  // by shard
+  std::set<std::uint32_t> expected_;    // shards
 };
 
 }  // namespace vegetation_sim
