@@ -195,6 +195,7 @@ void AgentCrowd::restart() {
   resetCrowd(crowd::CrowdShard::Start::FRESH);
   if (inbox_) inbox_->jumpBack();
   parts_.clear();
+  heard_.clear();
   last_parts_.clear();
   joined_ = 0;
   sensors_.clear();

@@ -59,7 +59,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   // Time.
   static constexpr std::uint8_t BORDER = 10;  // kind of events: see CrowdEvent
-  static constexpr int MOST_PARTS = 2;        // ticks that wait for people of other shards
+  static constexpr int MOST_PARTS = 15;       // ticks that wait for people of other shards: a lost
+                                              // packet comes again after 0.2 s or more
   void populate(crowd::CrowdShard::Start start);
   void updateNextId();
   /// Number of walkers that wait for their stamps.
@@ -115,7 +116,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void keepBorder(const crowd::CrowdBorder& after_tick);
   void publishBorder();
   void onPart(const CrowdPart& message);
+  using Parts = std::map<std::uint32_t, CrowdPart>;  // by shard
   void addPart(const CrowdPart& part);
+  bool hasAll(Nanoseconds stamp, const Parts& parts) const;
   void publishParts();
   void publishJoined(const AgentStates& all);
   /// One node shows the people of all shards.
@@ -162,8 +165,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
   HashedCache<CrowdBorder> borders_;
-  using Parts = std::map<std::uint32_t, CrowdPart>;  // by shard
-  std::map<Nanoseconds, Parts> parts_;               // by stamp, that wait for other shards
+  std::map<Nanoseconds, Parts> parts_;          // by stamp, that wait for other shards
+  std::map<std::uint32_t, Nanoseconds> heard_;  // stamp of the newest part of each shard
   Parts last_parts_;
   Nanoseconds joined_{0};  // stamp of the last people of all shards
   CrowdMarkers markers_;

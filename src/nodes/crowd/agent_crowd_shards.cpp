@@ -231,22 +231,25 @@ void AgentCrowd::onPart(const CrowdPart& message) {
   });
 }
 
-// The people of a tick are published once those of all shards have come. Earlier ticks are then
-// past: each shard sends its own in order. Those of a silent shard stand as they were last. Only
-// ticks of this shard decide that another is silent.
+// The people of a tick are published once those of all shards have come, but for those of silent
+// ones, who stand as they were last.
 void AgentCrowd::addPart(const CrowdPart& part) {
-  const auto tick = parts_.emplace(fromMsg(part.people.header.stamp), Parts()).first;
-  tick->second[part.shard] = part;
-  if (tick->second.size() == options_.shard->count) {
-    parts_.erase(parts_.begin(), tick);
-    publishParts();
-  }
-  const auto past = [this] {
-    return std::distance(parts_.begin(), parts_.upper_bound(lastStamp()));
-  };
-  while (clock_.hasBegun() && past() > MOST_PARTS) publishParts();
+  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
+  for (std::uint32_t i = 0; i < options_.shard->count; ++i) heard_.emplace(i, stamp);
+  heard_[part.shard] = std::max(heard_[part.shard], stamp);
+  parts_[stamp][part.shard] = part;
+  while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
   if (!clock_.hasBegun())
     while (parts_.size() > MOST_PARTS) parts_.erase(parts_.begin());
+}
+
+// Each shard sends its parts in order. Only ticks of this shard decide that another is silent.
+bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
+  if (!clock_.hasBegun() || stamp > lastStamp()) return false;
+  const Nanoseconds silent = clock_.grid().timeOf(clock_.tick() - MOST_PARTS);
+  return std::all_of(heard_.begin(), heard_.end(), [&](const auto& shard) {
+    return parts.count(shard.first) > 0 || shard.second > stamp || shard.second < silent;
+  });
 }
 
 // Publishes the people of the earliest tick.
