@@ -220,6 +220,22 @@ class CrowdShards(unittest.TestCase):
             self.assertIn('shard 1 of 2, /crowd_1', answer.message)
         answer = self.ask(0, 'remove', RemoveAgents, ids=ids[:1])
         self.assertTrue(answer.success, answer.message)
+        # Those who come to it stand at its border, and `agents` has them.
+        for _ in range(90):
+            type(self).tick += 1
+            self.clock.set(time_of(self.tick) + rospy.Duration(0.5 / RATE))
+            self.whole.wait_for_stamp(time_of(self.tick))
+        self.agents.wait_for_stamp(time_of(self.tick - 2))
+        self.assertEqual(sorted(set(self.people()) - {ids[1]}), list(range(PEOPLE)))
+
+    def test_9_other_people_are_refused(self):
+        other = os.path.join(self.folder, 'other.yaml')
+        with open(SCENE, encoding='utf-8') as scene, open(other, 'w', encoding='utf-8') as copy:
+            copy.write(scene.read().replace('count: 60', 'count: 61'))
+        process = start_node('agent_crowd', '/crowd_other', {}, scenario=other, tf_budget=0,
+                             shard=dict(index=1, count=SHARDS))
+        self.processes['/crowd_other'] = process
+        self.assertNotEqual(process.wait(DEADLINE), 0)
 
 
 if __name__ == '__main__':
