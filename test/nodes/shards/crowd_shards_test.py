@@ -225,7 +225,7 @@ class CrowdShards(unittest.TestCase):
             type(self).tick += 1
             self.clock.set(time_of(self.tick) + rospy.Duration(0.5 / RATE))
             self.whole.wait_for_stamp(time_of(self.tick))
-        self.agents.wait_for_stamp(time_of(self.tick - 2))
+        self.agents.wait_for_stamp(time_of(self.tick))
         self.assertEqual(sorted(set(self.people()) - {ids[1]}), list(range(PEOPLE)))
 
     def test_9_other_people_are_refused(self):
