@@ -114,7 +114,7 @@ class ForestParameters(Ranges, RefusingNode):
         for shard, text in (
                 ({'count': 0}, 'shard: count = 0 is outside 1 to 256'),
                 ({'count': 257}, 'shard: count = 257 is outside 1 to 256'),
-                ({'index': -1}, 'shard: index = -1 is outside 0 to 4095'),
+                ({'index': -1}, 'shard: index = -1 is outside 0 to 255'),
                 ({'index': 2, 'count': 2},
                  'shard: index = 2 is outside 0 to 1, because count = 2'),
                 ({'number': 2}, 'number is not a known key; known are count, index, wait'),

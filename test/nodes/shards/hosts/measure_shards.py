@@ -10,6 +10,7 @@ usage: measure_shards.py FOLDER TILES WALKERS SHARDS TICKS [AREA PLACES RANGE]
 import collections
 import os
 import sys
+import threading
 
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -64,15 +65,17 @@ class Counter:
 
     def __init__(self, topic, message_type=None):
         self.bytes, self.stamps, self._type = 0, collections.Counter(), message_type
+        self._lock = threading.Lock()  # each publisher has a thread
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
 
     def publishers(self):
         return self._subscriber.get_num_connections()
 
     def _on_message(self, raw):
-        self.bytes += len(raw._buff)
-        if self._type:
-            self.stamps[self._type().deserialize(raw._buff).header.stamp] += 1
+        stamp = self._type().deserialize(raw._buff).header.stamp if self._type else None
+        with self._lock:
+            self.bytes += len(raw._buff)
+            self.stamps[stamp] += 1
 
 
 def main():
