@@ -266,7 +266,7 @@ void AgentCrowd::publishParts() {
   Parts last = std::exchange(last_parts_, {});
   for (auto& [owner, part] : fresh) last[owner] = std::move(part);
   for (const auto& entry : last) all.hash += entry.second.people.hash;
-  // Of a person in several lists, the first counts.
+  // A person in several lists is taken from the first.
   for (const auto& entry : last)
     if (fresh.count(entry.first) > 0) add(entry.second.people.agents);
   for (const auto& entry : last)

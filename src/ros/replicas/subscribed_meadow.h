@@ -81,7 +81,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
     return joinRivals(
         {describeRivals(subscribers_, replica_.shards()), rivalsOfNear(), wind_.rivals()});
   }
-  /// As rivals(), of `near` only.
+  /// Returns rivals() of `near` only.
   std::string rivalsOfNear() const { return describeRivals({near_subscriber_}, replica_.shards()); }
   const InputStatus& windStatus() const { return wind_.status(); }
   /// Returns the status of the states, of all shards. It names those that are not in use.
