@@ -75,10 +75,10 @@ TEST(TreeOwners, AShardIsARegion) {
 }
 
 TEST(TreeOwners, RejectsAShardByNameValueAndRange) {
-  EXPECT_EQ(faultOf(0, 0), "shard: count = 0 is outside 1 to 4096");
-  EXPECT_EQ(faultOf(0, 4097), "shard: count = 4097 is outside 1 to 4096");
+  EXPECT_EQ(faultOf(0, 0), "shard: count = 0 is outside 1 to 256");
+  EXPECT_EQ(faultOf(0, 257), "shard: count = 257 is outside 1 to 256");
   EXPECT_EQ(faultOf(2, 2), "shard: index = 2 is outside 0 to 1, because count = 2");
-  EXPECT_EQ(faultOf(4095, 4096), "");
+  EXPECT_EQ(faultOf(255, 256), "");
 }
 
 TEST(TreeOwners, NamesTheOwnerOfATreeThatIsNotOwned) {
