@@ -21,6 +21,7 @@ if(${PROJECT_NAME}_FUZZ)
     src/nodes/crowd/crowd_events.cpp src/nodes/cutters/cut_request.cpp
     src/nodes/cutters/cutter_follower.cpp src/nodes/cutters/followed_cutter.cpp
     src/nodes/forest/forest_inputs.cpp src/nodes/bodies/robot_bodies_parts.cpp
+    src/nodes/grass/cover/cover_join.cpp src/nodes/grass/cover/grass_cover.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
     src/nodes/snapshots/snapshot_store.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)

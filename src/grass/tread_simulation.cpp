@@ -67,7 +67,7 @@ void TreadSimulation::touch(const Vec3& from, const Vec3& to, double reach) {
                                    static_cast<int>((law.columns - 1) * law.resolution / side) + 1);
   for (int r = std::max(0, row(std::min(from.y(), to.y()) - reach)); r <= last_row; ++r)
     for (int c = std::max(0, column(std::min(from.x(), to.x()) - reach)); c <= last_column; ++c)
-      touched_.insert({r, c});
+      if (tread_.owners().ownsBlock(r, c, tread_.cells())) touched_.insert({r, c});
 }
 
 TreadSimulation::StrokeSteps TreadSimulation::stepsOf(const TreadInput& stroke) const {

@@ -144,6 +144,11 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   source.position = position;
   source.stamp = stamp;
   TreadStroke stroke(law, fullDose(law), from, source);
+  if (owners_->shard().count > 1 && !ownsAnyOf(boxOf(stroke.line.low, stroke.line.high, law.reach))) {
+    dropWindow(source);
+    ++state_.counts.outside;
+    return 0;
+  }
   const bool moved = moveWindow(source, law.reach);
   if (source.doses.empty()) {
     ++state_.counts.no_memory;
@@ -241,20 +246,26 @@ int TreadMap::pressBands(TreadStroke& stroke) {
   return touched;
 }
 
-// Whether the shard has a block in a band. Doses of other bands are not needed.
-bool TreadMap::ownsAnyOf(const TreadBand& band) const {
-  if (owners_->shard().count == 1) return true;
-  const int last_row = blockOf(band.first_row + band.rows - 1);
-  const int last_column = blockOf(band.first_column + band.pitch - 1);
-  for (int row = blockOf(std::max(0, band.first_row)); row <= last_row; ++row)
-    for (int column = blockOf(std::max(0, band.first_column)); column <= last_column; ++column)
+// Whether the shard has a block in a box of nodes. Doses of other nodes are not needed.
+bool TreadMap::ownsAnyOf(const Box& box) const {
+  for (int row = blockOf(box.first_row); row <= blockOf(box.last_row); ++row)
+    for (int column = blockOf(box.first_column); column <= blockOf(box.last_column); ++column)
       if (owners_->ownsBlock(row, column, cells_)) return true;
   return false;
 }
 
+// A source that has pressed no node of the shard has no dose there.
+void TreadMap::dropWindow(TreadSource& source) {
+  doses_count_ -= source.doses.size();
+  source.doses = {};
+  source.first_column = source.first_row = source.columns = source.rows = 0;
+}
+
 // @return number of nodes within reach.
 int TreadMap::pressBand(TreadStroke& stroke, const TreadBand& band) {
-  if (!ownsAnyOf(band)) return 0;
+  const Box box{std::max(0, band.first_column), band.first_column + band.pitch - 1,
+                std::max(0, band.first_row), band.first_row + band.rows - 1};
+  if (owners_->shard().count > 1 && !ownsAnyOf(box)) return 0;
   prefetch(band);
   const TreadGrid grid = this->grid();
   measureBand(stroke.line, grid, band, presses_);

@@ -8,6 +8,7 @@
 #include <vegetation_sim/Viewer.h>
 
 #include <boost/thread/recursive_mutex.hpp>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -73,7 +74,8 @@ class EventNode : public SavedNode<Queue, Options> {
       : Base(name, topic, handle, private_handle, std::move(options),
              {[this] { acceptInput("viewer", [this] { followViewerFrame(); }); },
               [this](std::int64_t tick) { acceptInput("tick", [&] { onTick(tick); }); },
-              [this](Nanoseconds now) { acceptInput("clock", [&] { onJumpBack(now); }); }}),
+              [this](Nanoseconds now) { acceptInput("clock", [&] { onJumpBack(now); }); },
+              [this] { sendOutputs(); }}),
         tf_buffer_(ros::Duration(tf2::BufferCore::DEFAULT_CACHE_TIME),
                    true),  // with the service that shows its frames
         tf_listener_(tf_buffer_),
@@ -92,6 +94,7 @@ class EventNode : public SavedNode<Queue, Options> {
     acceptInput("viewer",
                 [&] { viewers_.hear(message, tf_buffer_, options_.frame_id, lastStamp()); });
   }
+  bool areMarkersWanted() const { return markers_->isWanted(); }
   /// Viewers of the markers at the last tick.
   virtual std::vector<Viewpoint> markerViewers(Nanoseconds stamp) { return viewers_.eyesAt(stamp); }
   /// Writes the tuning in force into what dynamic_reconfigure shows first.
@@ -133,7 +136,7 @@ class EventNode : public SavedNode<Queue, Options> {
     tuning_server_->setCallback([this](Config& config, std::uint32_t) { onTuning(config); });
     connect();
     this->subscribe("viewer", 10, &EventNode::onViewer);
-    this->repeat(options_.markers_rate, &EventNode::sendMarkers);
+    repeat(options_.markers_rate, &EventNode::sendMarkers);
     if (options_.replay) subscribeToRecorded();
     this->serveShared("reset", &EventNode::onReset, toAllShards<std_srvs::Trigger::Request>(),
                       Repeat::ALLOWED, joinReplies<std_srvs::Trigger::Response>);
@@ -149,6 +152,12 @@ class EventNode : public SavedNode<Queue, Options> {
     tuning_server_.reset();
   }
 
+  /// Calls a function after the ticks with which its periods begin; once for several ticks that
+  /// are late. A timer of ROS time would wake each node a thousand times a second.
+  template <class Node>
+  void repeat(double rate, void (Node::*callback)()) {
+    outputs_.push_back({rate, [this, callback] { (static_cast<Node*>(this)->*callback)(); }});
+  }
   /// The route of requests that concern all shards.
   template <class Request>
   typename Base::template ShardRoute<Request> toAllShards() const {
@@ -190,9 +199,22 @@ class EventNode : public SavedNode<Queue, Options> {
  private:
   FrameListener tf_listener_;
 
+  struct Output {
+    double rate;  // [Hz]
+    std::function<void()> send;
+    bool is_due{false};
+  };
+
   void onTick(std::int64_t tick) {
+    for (Output& output : outputs_)
+      output.is_due |= isDue(tick, output.rate, clock_.grid().rate());
     this->runTick(tick);
     this->openServices();
+  }
+
+  void sendOutputs() {
+    for (Output& output : outputs_)
+      if (std::exchange(output.is_due, false)) acceptInput("output", output.send);
   }
 
   // A subscriber of any type takes the type of its first publisher for good. After the player of
@@ -250,8 +272,8 @@ class EventNode : public SavedNode<Queue, Options> {
     });
   }
 
-  void sendMarkers(const ros::TimerEvent&) {
-    if (!clock_.hasBegun() || !markers_->isWanted()) return;
+  void sendMarkers() {
+    if (!markers_->isWanted()) return;
     markers_->publish(markerViewers(clock_.stamp()), clock_.stamp());
   }
 
@@ -291,6 +313,7 @@ class EventNode : public SavedNode<Queue, Options> {
   ros::Subscriber recorded_;      // to events of any version, in a replay
   bool is_other_version_{false};  // of the last recorded event
   std::optional<MarkerPublisher> markers_;
+  std::vector<Output> outputs_;
   ros::Publisher errors_publisher_;
   boost::recursive_mutex mutex_;  // of the server, whose values a load changes
   std::unique_ptr<dynamic_reconfigure::Server<Config>> tuning_server_;

@@ -107,7 +107,7 @@ class SavedNode : public NodeBase {
     warnOfLosses(name_.c_str(), inputs_.losses(), warned_);
   }
   void publishEvent(const Event& event) {
-    if (options_.replay) return;
+    if (options_.replay || events_publisher_.getNumSubscribers() == 0) return;
     Message message = eventToMsg(event);
     message.header.frame_id = options_.frame_id;
     events_publisher_.publish(message);

@@ -49,7 +49,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   } else {
     parts_publisher_ = handle_.advertise<CrowdPart>("agents/parts", 100);
   }
-  tread_publisher_ = handle_.advertise<TreadEvent>("tread", 10000);
+  treads_publisher_ = handle_.advertise<TreadEvents>("treads", 1000);
   const std::string markers = "agents/markers";
   start("crowd", (showsAll() ? markers : private_handle_.resolveName(markers)).c_str(), markers_);
   publishBorder();

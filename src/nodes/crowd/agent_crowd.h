@@ -15,7 +15,7 @@
 #include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/SetAgentGoal.h>
 #include <vegetation_sim/SpawnAgents.h>
-#include <vegetation_sim/TreadEvent.h>
+#include <vegetation_sim/TreadEvents.h>
 
 #include <functional>
 #include <map>
@@ -134,11 +134,10 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp);
   void publishMotions();
   void publishTreads(Nanoseconds stamp);
-  void publishTread(const TreadEvent& event);
-  void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp);
-  void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp);
+  void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
+  void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
-  void sendFrames(const ros::TimerEvent& event);
+  void sendFrames();
   /// Name of a walker's frame, and of the source by which it treads.
   std::string nameOf(const crowd::Walker& walker) const;
   void addDiagnostics(Status& status) override;
@@ -180,7 +179,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint64_t heard_layout_{0}, heard_cover_{0};  // of the newest ones
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
-  Nanoseconds framed_{0};       // stamp of the last frames
   TierHysteresis held_frames_;  // 1: has one
   std::size_t frames_sent_{0};  // at the last round
   struct Trodden {
@@ -190,6 +188,10 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   };
   using Walked = std::map<std::uint32_t, Trodden>;  // by walker
   static void archive(Archive& a, Walked& walked);
+  /// What is sent of a border: people, and where those who have crossed it have trodden.
+  std::string archiveBorder(const crowd::CrowdBorder& border) const;
+  /// @throws InvalidInput for bytes that are none.
+  static std::pair<crowd::CrowdBorder, Walked> readBorder(std::string bytes);
   struct SentBorder {
     Nanoseconds stamp{0};
     std::string bytes{};
@@ -201,7 +203,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher agents_publisher_, near_publisher_, view_publisher_, motions_publisher_,
-      tread_publisher_, border_publisher_, parts_publisher_;
+      treads_publisher_, border_publisher_, parts_publisher_;
 };
 
 }  // namespace vegetation_sim

@@ -99,26 +99,27 @@ void AgentCrowd::publishMotions() {
 
 void AgentCrowd::publishTreads(Nanoseconds stamp) {
   if (options_.tread == Treading::NONE) return;
+  TreadEvents treads;
+  treads.header.stamp = toStamp(stamp);
+  treads.header.frame_id = options_.frame_id;
   stamp = clock_.grid().timeOf(clock_.grid().tickAt(stamp) + options_.tread_ahead);
   for (const crowd::Walker& walker : crowd_.walkers()) {
     if (options_.tread == Treading::BODY)
-      treadOfBody(walker, stamp);
+      treadOfBody(walker, stamp, treads);
     else
-      treadOfFeet(walker, stamp);
+      treadOfFeet(walker, stamp, treads);
   }
   for (auto entry = trodden_.begin(); entry != trodden_.end();)
-    entry = crowd_.find(entry->first) ? std::next(entry) : trodden_.erase(entry);
-}
-
-// Treads of ticks that run again have been published.
-void AgentCrowd::publishTread(const TreadEvent& event) {
-  if (recovers()) return;
-  ++treads_;
-  tread_publisher_.publish(event);
+    entry = crowd_.find(entry->first) || (shard_ && isHanded(entry->first)) ? std::next(entry)
+                                                                            : trodden_.erase(entry);
+  if (treads.events.empty() || recovers()) return;  // those of ticks that run again were published
+  treads_ += treads.events.size();
+  treads_publisher_.publish(treads);
 }
 
 // The meadow joins the places of a track, so a place per PUBLISH_EVERY is enough.
-void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
+void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp,
+                             TreadEvents& treads) {
   Trodden& last = trodden_[walker.id];
   if (last.seen && length(walker.position - last.place) < PUBLISH_EVERY) return;
   TreadEvent event;
@@ -133,11 +134,12 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp) {
   event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : BODY_RADIUS;
   last.place = p;
   last.seen = true;
-  publishTread(event);
+  treads.events.push_back(std::move(event));
 }
 
 // Each foot that lands makes a stroke from heel to ball.
-void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
+void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp,
+                             TreadEvents& treads) {
   Trodden& last = trodden_[walker.id];
   const SinCos front = sinCos(walker.heading);
   const double sole = crowd::Proportions::FOOT_FRONT + crowd::Proportions::FOOT_BACK;
@@ -160,7 +162,7 @@ void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp) {
     event.position = onGround(foot.planted);
     event.law.has_radius = true;
     event.law.radius = options_.tread_radius > 0.0 ? options_.tread_radius : FOOT_RADIUS;
-    publishTread(event);
+    treads.events.push_back(std::move(event));
   }
   last.seen = true;
 }
@@ -183,10 +185,8 @@ std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
   return out;
 }
 
-void AgentCrowd::sendFrames(const ros::TimerEvent&) {
+void AgentCrowd::sendFrames() {
   const Nanoseconds stamp = crowd_.snapshot().stamp;
-  if (!clock_.hasBegun() || stamp == framed_) return;  // tf warns of a stamp that comes twice
-  framed_ = stamp;
   std::vector<geometry_msgs::TransformStamped> frames;
   const std::vector<TierChoice> choices = chooseFrames(stamp);
   for (std::size_t i = 0; i < choices.size(); ++i) {

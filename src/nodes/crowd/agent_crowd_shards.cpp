@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/archive/archive.h"
 #include "nodes/crowd/agent_crowd.h"
 #include "vegetation_sim/core/math/hash.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -166,12 +167,36 @@ void AgentCrowd::applyBorder(std::uint64_t hash) {
   const CrowdBorder* found = borders_.find(hash);
   if (!found || !shard_)
     throw InvalidInput("input_hash = " + std::to_string(hash) + " matches no border received");
-  crowd::CrowdBorder border = crowd::readBorder({found->border.begin(), found->border.end()});
+  auto [border, walked] = readBorder({found->border.begin(), found->border.end()});
   if (shard_->isResetBy(border)) {
     shard_->setRun(border.run);
     resetCrowd(crowd::CrowdShard::Start::RESET);
   }
   shard_->hear(found->shard, std::move(border));
+  trodden_.insert(walked.begin(), walked.end());
+}
+
+// With those who have crossed the border, where they have trodden last: their tracks go on.
+std::string AgentCrowd::archiveBorder(const crowd::CrowdBorder& border) const {
+  std::string people = crowd::archiveBorder(border);
+  Walked walked;
+  for (const auto& handed : border.handed)
+    if (const auto last = trodden_.find(handed.walker.id); last != trodden_.end())
+      walked.insert(*last);
+  Archive a;
+  a.text("border", people, LARGEST_SNAPSHOT);
+  archive(a, walked);
+  return a.bytes();
+}
+
+std::pair<crowd::CrowdBorder, AgentCrowd::Walked> AgentCrowd::readBorder(std::string bytes) {
+  Archive a = Archive::reading(std::move(bytes));
+  std::string people;
+  Walked walked;
+  a.text("border", people, LARGEST_SNAPSHOT);
+  archive(a, walked);
+  a.finish();
+  return {crowd::readBorder(std::move(people)), std::move(walked)};
 }
 
 void AgentCrowd::beginTickOfShard() {
@@ -192,7 +217,7 @@ void AgentCrowd::endTickOfShard() {
 
 void AgentCrowd::keepBorder(const crowd::CrowdBorder& after_tick) {
   const Nanoseconds stamp = after_tick.stamp;
-  SentBorder border{stamp, crowd::archiveBorder(after_tick)};
+  SentBorder border{stamp, archiveBorder(after_tick)};
   previous_border_ = stamp > border_.stamp ? std::move(border_) : SentBorder();
   border_ = std::move(border);
 }

@@ -92,7 +92,6 @@ void ForestAnimator::restart() {
   grab_manager_.clear();
   bodies_.clear();
   cutters_.clear();
-  last_framed_.reset();
   publishLayout();
 }
 

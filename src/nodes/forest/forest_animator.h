@@ -84,8 +84,8 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void publishLayout();
   void publishTrunks();
   void publishState(bool key_frame);
-  void sendFrames(const ros::TimerEvent& event);
-  void sendBranches(const ros::TimerEvent& event);
+  void sendFrames();
+  void sendBranches();
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
   std::vector<PredictedError> predictErrors() const override;
@@ -132,7 +132,6 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   ForestMarkers markers_;
   forest::BrokenTrees trunks_broken_;  // in the published trunks
 
-  std::optional<std::int64_t> last_framed_;  // tick
   std::size_t frames_sent_{0};               // at the last round
   bool force_key_frame_{true}, grabs_published_{false};
   std::uint64_t state_bytes_{0}, leases_ended_{0};

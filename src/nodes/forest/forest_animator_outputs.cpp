@@ -23,10 +23,7 @@ void addModes(diagnostic_updater::DiagnosticStatusWrapper& status, const std::st
 
 }  // namespace
 
-void ForestAnimator::sendFrames(const ros::TimerEvent&) {
-  // tf listeners warn of repeated transforms.
-  if (!clock_.hasBegun() || last_framed_ == clock_.tick()) return;
-  last_framed_ = clock_.tick();
+void ForestAnimator::sendFrames() {
   PosedTrees trees(*forest_, cache_, forest_->snapshot().stamp);
   const BranchFrames::Wanted wanted = options_.tf_promoted
                                           ? frames_.withPhysical(trees, grab_manager_.heldPoints())
@@ -38,8 +35,8 @@ void ForestAnimator::sendFrames(const ros::TimerEvent&) {
         branchTransforms(wanted, trees, options_.frame_id, options_.frame_prefix));
 }
 
-void ForestAnimator::sendBranches(const ros::TimerEvent&) {
-  if (!clock_.hasBegun() || branches_publisher_.getNumSubscribers() == 0) return;
+void ForestAnimator::sendBranches() {
+  if (branches_publisher_.getNumSubscribers() == 0) return;
   const Nanoseconds stamp = forest_->snapshot().stamp;
   std::size_t sent = 0;
   for (const int id : options_.branches_trees) {

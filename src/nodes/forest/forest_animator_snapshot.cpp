@@ -60,7 +60,6 @@ CheckedState ForestAnimator::readState(Archive& a) {
             bodies_.restore(bodies);
             cutters_.restore(cutters);
             deepest_ = {};
-            last_framed_.reset();
             force_key_frame_ = true;
             winds_.keep(read->wind.hash(), read->wind);
             queueNewerWind();

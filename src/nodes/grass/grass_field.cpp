@@ -3,6 +3,8 @@
 #include "nodes/grass/grass_field.h"
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "nodes/base/node_factory.h"
 
@@ -13,6 +15,24 @@
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 
 namespace vegetation_sim {
+namespace {
+
+using Events = std::vector<GrassEvent>::iterator;
+
+// Events are large, so they are moved once.
+void sortBySource(Events first, Events last) {
+  std::vector<Events> order(static_cast<std::size_t>(last - first));
+  std::iota(order.begin(), order.end(), first);
+  std::stable_sort(order.begin(), order.end(), [](const Events& a, const Events& b) {
+    return a->tread.source < b->tread.source;
+  });
+  std::vector<GrassEvent> sorted;
+  sorted.reserve(order.size());
+  for (const Events& event : order) sorted.push_back(std::move(*event));
+  std::move(sorted.begin(), sorted.end(), first);
+}
+
+}  // namespace
 
 GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : EventNode("grass_field", "grass/events", handle, private_handle,
@@ -32,10 +52,9 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                                                     *tread_);
   field_->setDrag(tuning_.drag);
   if (options_.shard && options_.shard->count > 1 && showsAll()) {
-    whole_ = std::make_unique<grass::TreadMap>(law, scene.grass.treading);
-    whole_field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain,
-                                                            scene.grass.treading, *whole_);
-    whole_field_->setDrag(tuning_.drag);
+    whole_ = std::make_unique<WholeMeadow>(layout, scene.terrain, scene.grass.treading);
+    whole_->field().setDrag(tuning_.drag);
+    covers_.emplace(options_.shard->count);
   }
   markers_ = std::make_unique<GrassMarkers>(shown(), scene.terrain, wind_, colours_, tuning_.view,
                                             options_.marker_points);
@@ -54,6 +73,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
         shownTopic(std::string("grass/cover/") + COVER_LAYERS[i]), 1);
+  if (!showsAll()) cover_part_publisher_ = handle_.advertise<GrassCoverPart>("grass/cover/parts", 4);
   join("grass", listMessages<GrassLayout, GrassState>(), layout.hash(), scene.terrain->hash());
   publishLayout();
   start("grass", shownTopic("grass/markers").c_str(), *markers_);
@@ -64,10 +84,9 @@ void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-  if (whole_) subscribe("grass/state", 1000, &GrassField::onState);
+  if (!options_.replay) subscribe("treads", 100, &GrassField::onTreads);
   subscribe("forest/sensors", 40, &GrassField::onSensor);
   connectServices();
-  repeat(options_.cover_rate, &GrassField::sendCover);
 }
 
 void GrassField::tick(std::int64_t tick) {
@@ -79,9 +98,10 @@ void GrassField::tick(std::int64_t tick) {
   }
   applyInputs(stamp);
   publishEntering(stamp);
-  if (whole_field_) whole_field_->advance(stamp);
+  if (whole_) followWhole(stamp);
   publishState(tick);
   publishForces(stamp);
+  sendCover(tick);
 }
 
 void GrassField::apply(GrassEvent& event) {
@@ -104,9 +124,7 @@ void GrassField::arrange(std::vector<GrassEvent>& events) const {
   for (auto first = events.begin(); first != events.end();) {
     first = std::find_if(first, events.end(), is_tread);
     const auto last = std::find_if_not(first, events.end(), is_tread);
-    std::stable_sort(first, last, [](const GrassEvent& a, const GrassEvent& b) {
-      return a.tread.source < b.tread.source;
-    });
+    sortBySource(first, last);
     first = last;
   }
 }
@@ -127,12 +145,12 @@ void GrassField::applyTuning(GrassTuning tuning) {
   check(tuning);
   tuning.view.most_blades = options_.tuning.view.most_blades;
   field_->setDrag(tuning.drag);
-  if (whole_field_) whole_field_->setDrag(tuning.drag);
+  if (whole_) whole_->field().setDrag(tuning.drag);
   markers_->setSettings(tuning.view);
   tuning_ = tuning;
   const std::uint64_t before = field_->layout().hash();
   field_->setTreadLaw(tuning.tread);
-  if (whole_field_) whole_field_->setTreadLaw(tuning.tread);
+  if (whole_) whole_->field().setTreadLaw(tuning.tread);
   if (field_->layout().hash() == before) return;
   key_frames_.demand();
   publishLayout();
@@ -141,8 +159,8 @@ void GrassField::applyTuning(GrassTuning tuning) {
 // Layout, wind and settings stay in force.
 void GrassField::resetGround() {
   field_->reset();
-  if (whole_field_) whole_field_->reset();
-  whole_replica_.reset();
+  if (whole_) whole_->reset();
+  if (covers_) covers_->clear();
   sources_.clear();
   cutters_.clear();
   key_frames_.demand();

@@ -15,6 +15,7 @@
 #include <vegetation_sim/SensorInterest.h>
 #include <vegetation_sim/SetGrassColours.h>
 #include <vegetation_sim/Tread.h>
+#include <vegetation_sim/TreadEvents.h>
 #include <vegetation_sim/WindField.h>
 
 #include <array>
@@ -25,9 +26,11 @@
 #include "nodes/base/event_node.h"
 #include "nodes/base/key_frames.h"
 #include "nodes/cutters/cutter_follower.h"
-#include "nodes/grass/grass_cover.h"
+#include "nodes/grass/cover/cover_join.h"
+#include "nodes/grass/cover/grass_cover.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
+#include "nodes/grass/whole_meadow.h"
 #include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/grass_markers.h"
 #include "vegetation_sim/grass/lod/colour_mask.h"
@@ -47,7 +50,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void connect() override;
   void onWind(const WindField& message);
   void onTread(const TreadEvent& message);
-  void onState(const GrassState& message);
+  void onTreads(const TreadEvents& message);
   void onSensor(const SensorInterest& message);
   void showTuning(GrassFieldConfig& config) const override { toConfig(tuning_, config); }
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
@@ -85,7 +88,10 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void publishEntering(Nanoseconds stamp);
   GrassForces forcesAt(Nanoseconds stamp) const;
   void publishForces(Nanoseconds stamp);
-  void sendCover(const ros::TimerEvent& event);
+  void sendCover(std::int64_t tick);
+  void publishCover(GrassCover cover);
+  void followCoverParts(bool is_wanted);
+  void onCoverPart(const GrassCoverPart& message);
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
   std::vector<PredictedError> predictErrors() const override;
@@ -108,15 +114,15 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
   std::string shownTopic(const std::string& topic) const;
   /// The ground of this node, or that of all shards.
-  const grass::TreadSimulation& shown() const { return whole_field_ ? *whole_field_ : *field_; }
+  const grass::TreadSimulation& shown() const { return whole_ ? whole_->field() : *field_; }
+  /// Receives the ground of all shards while somebody subscribes to views of it.
+  void followWhole(Nanoseconds stamp);
+  bool isCoverWanted() const;
 
   GrassTuning tuning_;
   std::unique_ptr<grass::TreadMap> tread_;
   std::unique_ptr<grass::TreadSimulation> field_;
-  // The ground of all shards, of the node that shows them.
-  std::unique_ptr<grass::TreadMap> whole_;
-  std::unique_ptr<grass::TreadSimulation> whole_field_;
-  grass::TreadReplica whole_replica_;
+  std::unique_ptr<WholeMeadow> whole_;  // of the node that shows the ground of all shards
   wind::Field wind_;
   grass::ColourMasks colours_;
   bool coloured_{false};  // the discs of the scenario have been published
@@ -129,6 +135,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassSources sources_;
   CutterFollower cutters_;
   GrassCover ground_;  // of the cover map, once it is wanted
+  std::optional<CoverJoin> covers_;  // of the node that joins the maps of all shards
+  ros::Subscriber cover_parts_;      // while the map is wanted
 
   static constexpr const char* PATH = "path_";
   std::uint64_t paths_{0};  // trodden by service, for the names of their sources
@@ -137,7 +145,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, near_publisher_, wrenches_publisher_,
-      forces_publisher_, cover_publisher_, values_publisher_, colours_publisher_;
+      forces_publisher_, cover_publisher_, cover_part_publisher_, values_publisher_, colours_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

@@ -4,11 +4,17 @@
 
 #include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
+#include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr double MOST_AHEAD = 10.0;  // of the cells of another shard [s]
+
+}  // namespace
 
 void GrassField::onWind(const WindField& message) {
   acceptInput("wind", [&] {
@@ -48,10 +54,42 @@ void GrassField::onTread(const TreadEvent& message) {
   });
 }
 
-// The state of a shard, of this one too, in the ground that the node shows.
-void GrassField::onState(const GrassState& message) {
-  const grass::TreadUpdate update = fromMsg(message);
-  if (update.layout_hash == field_->layout().hash()) whole_replica_.apply(update, *whole_);
+// The messages of shards are large, so they come only while the map is wanted.
+void GrassField::followCoverParts(bool is_wanted) {
+  if (is_wanted == static_cast<bool>(cover_parts_)) return;
+  cover_parts_.shutdown();
+  cover_parts_ = ros::Subscriber();
+  covers_->clear();
+  if (!is_wanted) return;
+  const boost::function<void(const GrassCoverPart&)> guarded =
+      [this](const GrassCoverPart& part) {
+        acceptInput("grass/cover/parts", [&] { onCoverPart(part); });
+      };
+  cover_parts_ =
+      subscribeWithoutDelay<GrassCoverPart>(handle_, "grass/cover/parts", MOST_SHARDS, guarded);
+}
+
+void GrassField::onCoverPart(const GrassCoverPart& message) {
+  checkFrame(message.header.frame_id, options_.frame_id);
+  const double ahead = secondsBetween(lastStamp(), fromMsg(message.header.stamp));
+  if (ahead > MOST_AHEAD)
+    throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
+                       std::to_string(MOST_AHEAD) + " s");
+  covers_->add(message);
+  if (auto joined = covers_->take()) publishCover(std::move(*joined));
+}
+
+void GrassField::followWhole(Nanoseconds stamp) {
+  whole_->follow(
+      areMarkersWanted(), handle_,
+      [this](const GrassState& message) {
+        acceptInput("grass/state", [&] { whole_->apply(message); });
+      });
+  whole_->field().advance(stamp);
+}
+
+void GrassField::onTreads(const TreadEvents& message) {
+  for (const TreadEvent& event : message.events) onTread(event);
 }
 
 // Sensors affect what is sent to them, so they are no events.

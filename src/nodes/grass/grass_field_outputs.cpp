@@ -100,13 +100,41 @@ void GrassField::publishForces(Nanoseconds stamp) {
   }
 }
 
-void GrassField::sendCover(const ros::TimerEvent&) {
-  std::uint32_t subscribers =
-      cover_publisher_.getNumSubscribers() + values_publisher_.getNumSubscribers();
-  for (const ros::Publisher& layer : layer_publishers_) subscribers += layer.getNumSubscribers();
-  if (!clock_.hasBegun() || subscribers == 0) return;
-  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, options_.cover_resolution);
-  GrassCover cover = coverOf(shown(), ground_, options_.cover_resolution);
+bool GrassField::isCoverWanted() const {
+  const auto is_wanted = [](const ros::Publisher& publisher) {
+    return publisher.getNumSubscribers() > 0;
+  };
+  return is_wanted(cover_publisher_) || is_wanted(values_publisher_) ||
+         std::any_of(layer_publishers_.begin(), layer_publishers_.end(), is_wanted);
+}
+
+void GrassField::sendCover(std::int64_t tick) {
+  const bool is_wanted = isCoverWanted();
+  const bool is_part_wanted = cover_part_publisher_ && cover_part_publisher_.getNumSubscribers() > 0;
+  if (covers_) followCoverParts(is_wanted);
+  if (recovers() || !isDue(tick, options_.cover_rate, clock_.grid().rate())) return;
+  if (!is_wanted && !is_part_wanted) return;
+  const double resolution = options_.cover_resolution;
+  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, resolution);
+  if (is_part_wanted) {
+    GrassCoverPart part = troddenCells(*field_, ground_.info, resolution);
+    part.header.frame_id = options_.frame_id;
+    part.shard = options_.shard->index;
+    cover_part_publisher_.publish(part);
+  }
+  if (!is_wanted) return;
+  GrassCover cover = coverOf(*field_, ground_, resolution);
+  if (covers_) {
+    if (auto before = covers_->begin(std::move(cover), field_->drag()))
+      publishCover(std::move(*before));
+    if (auto joined = covers_->take()) publishCover(std::move(*joined));
+    return;
+  }
+  addResistance(field_->drag(), cover);
+  publishCover(std::move(cover));
+}
+
+void GrassField::publishCover(GrassCover cover) {
   cover.header.frame_id = options_.frame_id;
   if (values_publisher_.getNumSubscribers() > 0) values_publisher_.publish(cover);
   const auto send = [&](const ros::Publisher& publisher, CoverLayer layer) {

@@ -14,7 +14,7 @@
 #include "grass/tread_simulation.h"
 #include "nodes/base/node_options.h"
 #include "nodes/cutters/followed_cutter.h"
-#include "nodes/grass/grass_cover.h"
+#include "nodes/grass/cover/grass_cover.h"
 #include "ros/params/scene_file.h"
 #include "vegetation_sim/grass/lod/colour_mask.h"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/time/tick_clock.h"
 
+#include <cmath>
 #include <utility>
 
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -13,7 +14,15 @@ constexpr int LOOKS_PER_TICK = 4;            // the timer is not aligned with th
 constexpr unsigned TICK_CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
 constexpr double NEWEST = 1.0 / 30.0;        // share of the newest tick in the mean cost
 
+std::int64_t periodOf(std::int64_t tick, double rate, int tick_rate) {
+  return static_cast<std::int64_t>(std::floor(static_cast<double>(tick) * (rate / tick_rate)));
+}
+
 }  // namespace
+
+bool isDue(std::int64_t tick, double rate, int tick_rate) {
+  return rate >= tick_rate || periodOf(tick, rate, tick_rate) != periodOf(tick - 1, rate, tick_rate);
+}
 
 TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls, LateTicks late)
     : name_(std::move(name)),
@@ -83,6 +92,7 @@ void TickClock::see(Nanoseconds clock) {
   if (hasBegun() && due <= last_) return;
   if (calls_.before) calls_.before();
   for (std::int64_t tick = hasBegun() ? last_ + 1 : due; tick <= due; ++tick) run(tick);
+  if (calls_.after) calls_.after();
 }
 
 }  // namespace vegetation_sim

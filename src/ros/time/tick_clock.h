@@ -23,7 +23,13 @@ struct TickCalls {
   std::function<void(std::int64_t tick)> tick;
   /// Called when time jumps back to `clock`, before the tick that is due then.
   std::function<void(Nanoseconds clock)> back{};
+  /// Called once after the ticks that were due, if any.
+  std::function<void()> after{};
 };
+
+/// Whether a period of 1 / rate begins with this tick, of `tick_rate` ticks per second. A higher
+/// rate is that of the ticks.
+bool isDue(std::int64_t tick, double rate, int tick_rate);
 
 /// Ticks that a late node runs: each one, or only the newest if it has no state.
 enum class LateTicks { EACH, NEWEST };

@@ -6,13 +6,15 @@
 #include "grass/lod/meadow_lod.h"
 #include "grass/mesh/grass_geometry.h"
 #include "grass/tread_simulation.h"
+#include "nodes/grass/cover/cover_join.h"
 #include "ros/replicas/subscribed_meadow.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim::fuzz {
 namespace {
 
-enum PieceKind { LAYOUT, STATE, JUMP_BACK, PRUNE, NEAR, KINDS };
+enum PieceKind { LAYOUT, STATE, JUMP_BACK, PRUNE, NEAR, COVER, KINDS };
 
 /// Draws what a viewer above the south-west corner sees, as GrassDisplay does.
 void draw(const SubscribedMeadow& meadow, Nanoseconds stamp) {
@@ -43,6 +45,36 @@ void draw(const SubscribedMeadow& meadow, Nanoseconds stamp) {
   }
   requireFinite(std::vector<float>(mesh.positions.begin(), mesh.positions.end()),
                 "vertex of grass");
+}
+
+/// Four untrodden cells, as shard 0 of two knows them.
+GrassCover untrodden(Nanoseconds stamp) {
+  GrassCover out;
+  out.header.stamp = toStamp(stamp);
+  out.info.width = out.info.height = 2;
+  out.info.resolution = 0.5F;
+  out.density = out.height = {1.F, 1.F, 1.F, 1.F};
+  out.crush.assign(4, 0.F);
+  out.age.assign(4, -1.F);
+  return out;
+}
+
+void joinCover(const GrassCoverPart& part) {
+  CoverJoin join(2);
+  const Nanoseconds stamp = fromMsg(part.header.stamp);
+  join.begin(untrodden(stamp), 1.0);
+  join.add(part);
+  if (const auto map = join.take()) requireFinite(map->resistance, "resistance of grass");
+}
+
+GrassCoverPart troddenCell() {
+  GrassCoverPart out;
+  out.shard = 1;
+  out.info = untrodden(START).info;
+  out.cells = {2};
+  out.crush = {0.5F};
+  out.age = {1.F};
+  return out;
 }
 
 void use(SubscribedMeadow& meadow) {
@@ -78,6 +110,9 @@ void receive(const Piece& piece, SubscribedMeadow& meadow) {
         meadow.apply(near);
         meadow.covers(SENSOR_PLACE, SENSOR_RANGE, stamp);
       }
+      break;
+    case COVER:
+      if (GrassCoverPart part; decode(piece.bytes, part)) joinCover(part);
       break;
     case JUMP_BACK:
       meadow.forgetLater(stamp);
@@ -142,13 +177,13 @@ std::string track(bool picture, bool is_near = false) {
 std::vector<std::string> seeds() {
   const std::string jump = pieceOf(JUMP_BACK, std::string("\x04\x00", 2));
   return {pieceOf(LAYOUT, encode(toMsg(lawn(false)))), track(false), track(true),
-          track(false, true), track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
+          track(false, true), pieceOf(COVER, encode(troddenCell())), track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
 }
 
 }  // namespace
 
 std::vector<Target> meadowMessageTargets() {
-  return {{"grass", "GrassLayout, GrassState, NearGrass; blades, strips and a sweep", run, seeds}};
+  return {{"grass", "GrassLayout, GrassState, NearGrass, GrassCoverPart; blades, strips, a sweep", run, seeds}};
 }
 
 }  // namespace vegetation_sim::fuzz

@@ -51,7 +51,7 @@ class CrowdRequests(unittest.TestCase):
                 if a.id < b.id:
                     self.assertGreater(distance(a.pose.position, b.pose.position), 0.5 - 1e-6)
         self.expect_view()
-        prints = [t for t in self.crowd.tread.messages if t.action == TreadEvent.STROKE]
+        prints = [t for t in self.crowd.tread_events() if t.action == TreadEvent.STROKE]
         self.assertGreater(len(prints), 16)
         self.assertTrue(all(t.source.startswith('hall/walker_') for t in prints))
         for t in prints:  # A footprint extends from heel to ball.

@@ -30,14 +30,14 @@ class Ramp:
         self.grass = Meadow(namespace + 'grass_field', namespace)
         self.nodes = self.crowd, self.grass
         self.crowd.wait_until_up()
-        self.grass.wait_until_up(namespace + 'tread')
+        self.grass.wait_until_up(namespace + 'treads')
         cover = namespace + 'grass/cover/resistance'
         wait_for(lambda: listens(self.crowd.process, cover), 'the cover')
 
     def treads(self, walker=None):
         """Returns the treads that the crowd published, of one walker if it is given."""
         name = 'walker_%s' % walker
-        return [t for t in self.crowd.tread.messages if walker is None or t.source.startswith(name)]
+        return [t for t in self.crowd.tread_events() if walker is None or t.source.startswith(name)]
 
     def all_arrived(self):
         """Returns whether the meadow has taken all treads."""

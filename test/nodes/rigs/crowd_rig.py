@@ -8,7 +8,7 @@ import rospy
 from geometry_msgs.msg import Point, TransformStamped
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import AgentStates, CrowdEvent, TreadEvent
+from vegetation_sim.msg import AgentStates, CrowdEvent, TreadEvents
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
 
 from waiting import wait_for
@@ -18,12 +18,12 @@ from watched_node import Log, WatchedNode, publisher, wait_for_readers
 class Crowd(WatchedNode):
     """Client of one agent_crowd."""
 
-    LOGS = 'state', 'events', 'tread'
+    LOGS = 'state', 'events', 'treads'
 
     def __init__(self, name='/agent_crowd', namespace='/'):
         self.state = Log(namespace + 'agents', AgentStates)
         self.events = Log(namespace + 'agents/events', CrowdEvent)
-        self.tread = Log(namespace + 'tread', TreadEvent)
+        self.treads = Log(namespace + 'treads', TreadEvents)
         self.spawn = rospy.ServiceProxy(name + '/spawn', SpawnAgents)
         self.set_goal = rospy.ServiceProxy(name + '/set_goal', SetAgentGoal)
         self.reset = rospy.ServiceProxy(name + '/reset', Trigger)
@@ -38,6 +38,10 @@ class Crowd(WatchedNode):
 
     def hashes(self):
         return {m.header.stamp: m.hash for m in self.state.messages}
+
+    def tread_events(self):
+        """Returns the treads of all people, in order."""
+        return [event for message in self.treads.messages for event in message.events]
 
     def expect_event(self, kind, fits=lambda event: True):
         """Waits for an event of a kind that fulfils `fits`. Returns the newest one."""

@@ -199,7 +199,8 @@ class TreadMap {
   int pressWindow(TreadStroke& stroke);
   int pressBands(TreadStroke& stroke);
   int pressBand(TreadStroke& stroke, const TreadBand& band);
-  bool ownsAnyOf(const TreadBand& band) const;
+  bool ownsAnyOf(const Box& box) const;
+  void dropWindow(TreadSource& source);
   void prefetch(const TreadBand& band);
   void forgetRecent();
 

@@ -9,13 +9,14 @@ usage: measure_shards.py FOLDER TILES WALKERS SHARDS TICKS [AREA PLACES RANGE]
        which see people and tracks within RANGE m (500)"""
 import collections
 import os
+import struct
 import sys
 import threading
 
 import rospy
 from geometry_msgs.msg import Point, Pose, Quaternion
 from std_msgs.msg import Header
-from vegetation_sim.msg import AgentStates, ForestState, GrassState, SensorInterest, Viewer
+from vegetation_sim.msg import SensorInterest, Viewer
 
 from forest_rig import RATE, start_node, stop, time_of
 from waiting import SimulatedClock, wait_for
@@ -26,7 +27,7 @@ FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
 LISTENERS = {'display': ('/forest/view', '/grass/near', '/agents/view'),
              'lidar': ('/forest/state', '/grass/near', '/agents/near'),
              'listener to all': ('/forest/state', '/grass/state', '/agents')}
-AWAITED = {'/forest/state': ForestState, '/grass/state': GrassState, '/agents': AgentStates}  # at each tick
+AWAITED = '/forest/state', '/grass/state', '/agents'  # at each tick
 
 
 def write_scene(path, tiles, walkers, area):
@@ -43,7 +44,9 @@ forest:
   species: [{file: %s/birch.yaml}, {file: %s/pine.yaml}]
   tiles:
     - {x: %g, y: %g, size: %g, rows: %d, columns: %d, count: 1000, mix: {birch: 1, pine: 1}}
-grass: {resolution: 4.0, origin_x: %g, origin_y: %g, columns: %d, rows: %d, height: {value: 0.3}, density: {value: 300}}
+grass:
+  {resolution: 4.0, origin_x: %g, origin_y: %g, columns: %d, rows: %d, height: {value: 0.3}, density: {value: 300},
+   treading: {memory_cap: 4.0e+9}}  # does not bind, so that the ground of all shards is that of one
 crowd:
   area: {min_x: %g, max_x: %g, min_y: %g, max_y: %g}
   groups: [{count: %d, x: 0, y: 0, spread: %g}]
@@ -63,8 +66,8 @@ def cost_of(process):
 class Counter:
     """Counts the bytes of a topic, and its messages by stamp."""
 
-    def __init__(self, topic, message_type=None):
-        self.bytes, self.stamps, self._type = 0, collections.Counter(), message_type
+    def __init__(self, topic, has_header):
+        self.bytes, self.stamps, self._has_header = 0, collections.Counter(), has_header
         self._lock = threading.Lock()  # each publisher has a thread
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True)
 
@@ -72,7 +75,8 @@ class Counter:
         return self._subscriber.get_num_connections()
 
     def _on_message(self, raw):
-        stamp = self._type().deserialize(raw._buff).header.stamp if self._type else None
+        # A header has the stamp after its sequence number.
+        stamp = rospy.Time(*struct.unpack_from('<II', raw._buff, 4)) if self._has_header else None
         with self._lock:
             self.bytes += len(raw._buff)
             self.stamps[stamp] += 1
@@ -95,7 +99,7 @@ def main():
                                   modal_trees=MODAL_TREES // shards, **share))
         meadows.append(start_node('grass_field', '/grass_%d' % index, {}, state_bytes=1000000000,
                                   cover_resolution=1.0, view_range=view_range, **share))
-    counters = {topic: Counter(topic, AWAITED.get(topic))
+    counters = {topic: Counter(topic, topic in AWAITED)
                 for topics in LISTENERS.values() for topic in topics}
     viewers = rospy.Publisher('/viewer', Viewer, queue_size=100)
     sensors = rospy.Publisher('/forest/sensors', SensorInterest, queue_size=100)

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/grass/grass_cover.h"
+#include "nodes/grass/cover/grass_cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +19,12 @@ int cellsAlong(const grass::MapLaw& law, int nodes, double resolution) {
   return static_cast<int>(std::ceil(law.resolution / resolution * (nodes - 1) - 1e-9));
 }
 
-// Only trodden blocks are visited.
-void addTreads(const grass::TreadSimulation& field, double resolution, GrassCover& cover) {
-  const int rows = static_cast<int>(cover.info.height),
-            columns = static_cast<int>(cover.info.width);
+// Calls visit(cell, crush, age) for each trodden node. Only trodden blocks are visited.
+template <class Visit>
+void visitTreads(const grass::TreadSimulation& field, const nav_msgs::MapMetaData& info,
+                 double resolution, const Visit& visit) {
+  const int rows = static_cast<int>(info.height), columns = static_cast<int>(info.width);
   const double spacing = field.tread().spacing() / resolution;
-  cover.crush.assign(cover.density.size(), 0.f);
-  cover.age.assign(cover.density.size(), -1.f);
   for (const auto& [place, block] : field.tread().state().blocks)
     for (int i = 0; i < SIDE * SIDE; ++i) {
       const grass::TreadNode& node = block.nodes[static_cast<std::size_t>(i)];
@@ -35,10 +34,15 @@ void addTreads(const grass::TreadSimulation& field, double resolution, GrassCove
       const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
       const std::size_t cell = static_cast<std::size_t>(std::min(row, rows - 1)) * columns +
                                std::min(column, columns - 1);
-      const auto age = static_cast<float>(secondsBetween(node.stamp, field.stamp()));
-      cover.crush[cell] = std::max(cover.crush[cell], tilt / static_cast<float>(grass::BEND_LIMIT));
-      cover.age[cell] = cover.age[cell] < 0.f ? age : std::min(cover.age[cell], age);
+      visit(cell, tilt / static_cast<float>(grass::BEND_LIMIT),
+            static_cast<float>(secondsBetween(node.stamp, field.stamp())));
     }
+}
+
+// Of a cell, the most trodden node counts, and the one that was trodden last.
+void addTread(std::size_t cell, float crush, float age, GrassCover& cover) {
+  cover.crush[cell] = std::max(cover.crush[cell], crush);
+  cover.age[cell] = cover.age[cell] < 0.f ? age : std::min(cover.age[cell], age);
 }
 
 // Returns the number of nodes in each cell along an axis; `spacing` is that of nodes over that of
@@ -135,15 +139,61 @@ GrassCover groundOf(const grass::FeatureMap& map, double resolution) {
   return out;
 }
 
+GrassCoverPart troddenCells(const grass::TreadSimulation& field,
+                            const nav_msgs::MapMetaData& info, double resolution) {
+  GrassCoverPart out;
+  out.header.stamp = toStamp(field.stamp());
+  out.info = info;
+  struct Trodden {
+    std::size_t cell;
+    float crush, age;
+  };
+  std::vector<Trodden> nodes;
+  visitTreads(field, info, resolution, [&](std::size_t cell, float crush, float age) {
+    if (!nodes.empty() && nodes.back().cell == cell) {  // mostly, since rows of nodes are visited
+      nodes.back().crush = std::max(nodes.back().crush, crush);
+      nodes.back().age = std::min(nodes.back().age, age);
+    } else {
+      nodes.push_back({cell, crush, age});
+    }
+  });
+  std::sort(nodes.begin(), nodes.end(),
+            [](const Trodden& a, const Trodden& b) { return a.cell < b.cell; });
+  for (const Trodden& node : nodes) {
+    if (out.cells.empty() || out.cells.back() != node.cell) {
+      out.cells.push_back(static_cast<std::uint32_t>(node.cell));
+      out.crush.push_back(node.crush);
+      out.age.push_back(node.age);
+    } else {
+      out.crush.back() = std::max(out.crush.back(), node.crush);
+      out.age.back() = std::min(out.age.back(), node.age);
+    }
+  }
+  return out;
+}
+
 GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, double resolution) {
   GrassCover out = std::move(ground);
   out.header.stamp = toStamp(field.stamp());
-  addTreads(field, resolution, out);
+  out.crush.assign(out.density.size(), 0.f);
+  out.age.assign(out.density.size(), -1.f);
+  visitTreads(field, out.info, resolution, [&](std::size_t cell, float crush, float age) {
+    addTread(cell, crush, age, out);
+  });
   CutLayers(field, resolution, out).fill();
-  for (std::size_t i = 0; i < out.density.size(); ++i)
-    out.resistance.push_back(static_cast<float>(field.drag()) * out.density[i] * out.height[i] *
-                             std::max(0.f, 1.f - out.crush[i]));
   return out;
+}
+
+void addTreads(const GrassCoverPart& part, GrassCover& cover) {
+  for (std::size_t i = 0; i < part.cells.size(); ++i)
+    addTread(part.cells[i], part.crush[i], part.age[i], cover);
+}
+
+void addResistance(double drag, GrassCover& cover) {
+  cover.resistance.resize(cover.density.size());
+  for (std::size_t i = 0; i < cover.density.size(); ++i)
+    cover.resistance[i] = static_cast<float>(drag) * cover.density[i] * cover.height[i] *
+                          std::max(0.f, 1.f - cover.crush[i]);
 }
 
 nav_msgs::OccupancyGrid percentOf(const GrassCover& cover, CoverLayer layer,

@@ -4,6 +4,7 @@
 
 #include <nav_msgs/OccupancyGrid.h>
 #include <vegetation_sim/GrassCover.h>
+#include <vegetation_sim/GrassCoverPart.h>
 
 #include <array>
 
@@ -28,9 +29,16 @@ struct CoverScale {
 /// Computes the grid, density and height, which do not change. @param resolution edge of a cell
 /// [m].
 GrassCover groundOf(const grass::FeatureMap& map, double resolution);
-/// Completes the ground of this resolution by the layers that treading changes. Left to the caller:
-/// the frame.
+/// Returns the trodden cells of a grid of this resolution. Left to the caller: frame and shard.
+GrassCoverPart troddenCells(const grass::TreadSimulation& field, const nav_msgs::MapMetaData& info,
+                            double resolution);
+/// Completes the ground of this resolution by the layers that treads and cuts change, but for `resistance`. Left to
+/// the caller: the frame.
 GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, double resolution);
+/// Adds trodden cells of another shard; of a cell of both the most trodden node counts.
+void addTreads(const GrassCoverPart& part, GrassCover& cover);
+/// Computes `resistance` from the other layers. @param drag see TreadSimulation::drag().
+void addResistance(double drag, GrassCover& cover);
 
 /// Returns a layer in percent of its scale, at most 100; CRUSH of the largest tilt. -1: untrodden
 /// (AGE).
