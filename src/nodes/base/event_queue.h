@@ -106,6 +106,7 @@ class EventQueue {
   /// events that come after their own tick are among them and counted as late.
   std::vector<Event> take(Nanoseconds stamp) {
     std::vector<Event> out;
+    out.reserve(waiting_.size());
     std::deque<Event> later;
     for (Event& event : waiting_) {
       const Nanoseconds own = stampOf(event);

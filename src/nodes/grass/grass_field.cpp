@@ -44,9 +44,12 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   const GrassScene& scene = options_.scene;
   grass::Layout layout = scene.grass.layout;
   const grass::MapLaw& law = layout.map->law();
-  tread_ = std::make_unique<grass::TreadMap>(
-      law, scene.grass.treading,
-      std::make_shared<const grass::TileOwners>(law, options_.shard.value_or(Shard())));
+  const auto owners =
+      std::make_shared<const grass::TileOwners>(law, options_.shard.value_or(Shard()));
+  tread_ = std::make_unique<grass::TreadMap>(law, scene.grass.treading, owners);
+  near_treads_.emplace(law, *owners,
+                       NearTreads::marginOf(scene.grass.treading.longest_stroke,
+                                            grass::TreadBlock::SIDE * tread_->spacing()));
   layout.tread_spacing = tread_->spacing();
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
@@ -162,6 +165,7 @@ void GrassField::resetGround() {
   if (whole_) whole_->reset();
   if (covers_) covers_->clear();
   sources_.clear();
+  near_treads_->clear();
   cutters_.clear();
   key_frames_.demand();
 }

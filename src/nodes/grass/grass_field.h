@@ -30,6 +30,7 @@
 #include "nodes/grass/cover/grass_cover.h"
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
+#include "nodes/grass/near_treads.h"
 #include "nodes/grass/whole_meadow.h"
 #include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/grass_markers.h"
@@ -133,6 +134,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   bool needs_near_frame_{true};  // a listener is new
   std::uint32_t near_sequence_{0};
   GrassSources sources_;
+  std::optional<NearTreads> near_treads_;  // those that this shard needs
   CutterFollower cutters_;
   GrassCover ground_;  // of the cover map, once it is wanted
   std::optional<CoverJoin> covers_;  // of the node that joins the maps of all shards

@@ -46,7 +46,12 @@ GrassEvent GrassField::treadEvent(const grass::TreadInput& input) const {
 
 void GrassField::onTread(const TreadEvent& message) {
   acceptInput("tread", [&] {
-    const grass::TreadInput input = fromMsg(inWorld(message), tuning_.tread, tuning_.height_gate);
+    TreadEvent tread = inWorld(message);
+    const bool is_known = field_->sources().count(tread.source) > 0;
+    const NearTreads::Use use = near_treads_->useOf(tread, is_known);
+    if (use == NearTreads::Use::NONE) return;
+    if (use == NearTreads::Use::LIFT) tread.action = TreadEvent::LIFT;
+    const grass::TreadInput input = fromMsg(tread, tuning_.tread, tuning_.height_gate);
     if (input.action == grass::TreadAction::STROKE) field_->checkStroke(input);
     GrassEvent event = treadEvent(input);
     event.header.stamp = effectOf(message.header.stamp, clock_);

@@ -3,6 +3,7 @@
 #include "nodes/grass/cover/grass_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -14,29 +15,60 @@ namespace vegetation_sim {
 namespace {
 
 constexpr int SIDE = grass::TreadBlock::SIDE;
+constexpr std::size_t WIDTH = SIDE, NODES = WIDTH * WIDTH;
 
 int cellsAlong(const grass::MapLaw& law, int nodes, double resolution) {
   return static_cast<int>(std::ceil(law.resolution / resolution * (nodes - 1) - 1e-9));
 }
 
-// Calls visit(cell, crush, age) for each trodden node. Only trodden blocks are visited.
+// The cells of a block's nodes along an axis: successive nodes are mostly in one cell.
+struct CellsOfBlock {
+  // @param first node of the block. @param last cell of the axis. @param spacing of nodes over that
+  // of cells.
+  CellsOfBlock(int first, int last, double spacing) {
+    for (int i = 0; i < SIDE; ++i) {
+      const int cell = std::min(static_cast<int>((first + i) * spacing), last);
+      if (count == 0 || cells[count - 1] != cell) cells[count++] = cell;
+      index[static_cast<std::size_t>(i)] = count - 1;
+    }
+  }
+  std::array<int, SIDE> cells{};          // without repetitions
+  std::array<std::size_t, SIDE> index{};  // of each node's cell
+  std::size_t count{0};
+};
+
+// Calls visit(cell, crush, age) for the trodden cells of each trodden block: one of several blocks
+// is visited several times.
 template <class Visit>
 void visitTreads(const grass::TreadSimulation& field, const nav_msgs::MapMetaData& info,
                  double resolution, const Visit& visit) {
   const int rows = static_cast<int>(info.height), columns = static_cast<int>(info.width);
   const double spacing = field.tread().spacing() / resolution;
-  for (const auto& [place, block] : field.tread().state().blocks)
-    for (int i = 0; i < SIDE * SIDE; ++i) {
-      const grass::TreadNode& node = block.nodes[static_cast<std::size_t>(i)];
+  struct Cell {
+    float crush{0.f}, age{-1.f};
+  };
+  for (const auto& [place, block] : field.tread().state().blocks) {
+    const CellsOfBlock down(place.first * SIDE, rows - 1, spacing);
+    const CellsOfBlock across(place.second * SIDE, columns - 1, spacing);
+    std::array<Cell, NODES> cells;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const grass::TreadNode& node = block.nodes[i];
       const float tilt = tiltAt(node, field.stamp());
       if (!(tilt > 0.f)) continue;
-      const int column = static_cast<int>((place.second * SIDE + i % SIDE) * spacing);
-      const int row = static_cast<int>((place.first * SIDE + i / SIDE) * spacing);
-      const std::size_t cell = static_cast<std::size_t>(std::min(row, rows - 1)) * columns +
-                               std::min(column, columns - 1);
-      visit(cell, tilt / static_cast<float>(grass::BEND_LIMIT),
-            static_cast<float>(secondsBetween(node.stamp, field.stamp())));
+      Cell& cell = cells[down.index[i / WIDTH] * WIDTH + across.index[i % WIDTH]];
+      const auto age = static_cast<float>(secondsBetween(node.stamp, field.stamp()));
+      cell.crush = std::max(cell.crush, tilt / static_cast<float>(grass::BEND_LIMIT));
+      cell.age = cell.age < 0.f ? age : std::min(cell.age, age);
     }
+    for (std::size_t row = 0; row < down.count; ++row)
+      for (std::size_t column = 0; column < across.count; ++column) {
+        const Cell& cell = cells[row * WIDTH + column];
+        if (!(cell.crush > 0.f)) continue;
+        visit(static_cast<std::size_t>(down.cells[row]) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(across.cells[column]),
+              cell.crush, cell.age);
+      }
+  }
 }
 
 // Of a cell, the most trodden node counts, and the one that was trodden last.
@@ -149,13 +181,9 @@ GrassCoverPart troddenCells(const grass::TreadSimulation& field,
     float crush, age;
   };
   std::vector<Trodden> nodes;
+  nodes.reserve(4 * field.tread().state().blocks.size());
   visitTreads(field, info, resolution, [&](std::size_t cell, float crush, float age) {
-    if (!nodes.empty() && nodes.back().cell == cell) {  // mostly, since rows of nodes are visited
-      nodes.back().crush = std::max(nodes.back().crush, crush);
-      nodes.back().age = std::min(nodes.back().age, age);
-    } else {
-      nodes.push_back({cell, crush, age});
-    }
+    nodes.push_back({cell, crush, age});
   });
   std::sort(nodes.begin(), nodes.end(),
             [](const Trodden& a, const Trodden& b) { return a.cell < b.cell; });
