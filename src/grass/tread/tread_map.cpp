@@ -144,7 +144,8 @@ int TreadMap::tread(std::uint32_t id, const TreadLaw& law, const Point& position
   source.position = position;
   source.stamp = stamp;
   TreadStroke stroke(law, fullDose(law), from, source);
-  if (owners_->shard().count > 1 && !ownsAnyOf(boxOf(stroke.line.low, stroke.line.high, law.reach))) {
+  if (owners_->shard().count > 1 &&
+      !ownsAnyOf(boxOf(stroke.line.low, stroke.line.high, law.reach))) {
     dropWindow(source);
     ++state_.counts.outside;
     return 0;

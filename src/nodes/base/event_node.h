@@ -206,8 +206,7 @@ class EventNode : public SavedNode<Queue, Options> {
   };
 
   void onTick(std::int64_t tick) {
-    for (Output& output : outputs_)
-      output.is_due |= isDue(tick, output.rate, clock_.grid().rate());
+    for (Output& output : outputs_) output.is_due |= isDue(tick, output.rate, clock_.grid().rate());
     this->runTick(tick);
     this->openServices();
   }

@@ -188,7 +188,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   };
   using Walked = std::map<std::uint32_t, Trodden>;  // by walker
   static void archive(Archive& a, Walked& walked);
-  /// What is sent of a border: people, and where those who have crossed it have trodden.
+  /// Returns what is sent of a border: people, and where those who have crossed it have trodden.
   std::string archiveBorder(const crowd::CrowdBorder& border) const;
   /// @throws InvalidInput for bytes that are none.
   static std::pair<crowd::CrowdBorder, Walked> readBorder(std::string bytes);

@@ -118,8 +118,7 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
 }
 
 // The meadow joins the places of a track, so a place per PUBLISH_EVERY is enough.
-void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp,
-                             TreadEvents& treads) {
+void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads) {
   Trodden& last = trodden_[walker.id];
   if (last.seen && length(walker.position - last.place) < PUBLISH_EVERY) return;
   TreadEvent event;
@@ -138,8 +137,7 @@ void AgentCrowd::treadOfBody(const crowd::Walker& walker, Nanoseconds stamp,
 }
 
 // Each foot that lands makes a stroke from heel to ball.
-void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp,
-                             TreadEvents& treads) {
+void AgentCrowd::treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads) {
   Trodden& last = trodden_[walker.id];
   const SinCos front = sinCos(walker.heading);
   const double sole = crowd::Proportions::FOOT_FRONT + crowd::Proportions::FOOT_BACK;

@@ -132,7 +132,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   ForestMarkers markers_;
   forest::BrokenTrees trunks_broken_;  // in the published trunks
 
-  std::size_t frames_sent_{0};               // at the last round
+  std::size_t frames_sent_{0};  // at the last round
   bool force_key_frame_{true}, grabs_published_{false};
   std::uint64_t state_bytes_{0}, leases_ended_{0};
   std::uint64_t grabs_lost_{0}, reported_grabs_lost_{0};  // to another design

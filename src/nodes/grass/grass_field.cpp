@@ -76,7 +76,8 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   for (std::size_t i = 0; i < COVER_LAYERS.size(); ++i)
     layer_publishers_[i] = handle_.advertise<nav_msgs::OccupancyGrid>(
         shownTopic(std::string("grass/cover/") + COVER_LAYERS[i]), 1);
-  if (!showsAll()) cover_part_publisher_ = handle_.advertise<GrassCoverPart>("grass/cover/parts", 4);
+  if (!showsAll())
+    cover_part_publisher_ = handle_.advertise<GrassCoverPart>("grass/cover/parts", 4);
   join("grass", listMessages<GrassLayout, GrassState>(), layout.hash(), scene.terrain->hash());
   publishLayout();
   start("grass", shownTopic("grass/markers").c_str(), *markers_);

@@ -136,7 +136,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassSources sources_;
   std::optional<NearTreads> near_treads_;  // those that this shard needs
   CutterFollower cutters_;
-  GrassCover ground_;  // of the cover map, once it is wanted
+  GrassCover ground_;                // of the cover map, once it is wanted
   std::optional<CoverJoin> covers_;  // of the node that joins the maps of all shards
   ros::Subscriber cover_parts_;      // while the map is wanted
 
@@ -147,7 +147,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, near_publisher_, wrenches_publisher_,
-      forces_publisher_, cover_publisher_, cover_part_publisher_, values_publisher_, colours_publisher_;
+      forces_publisher_, cover_publisher_, cover_part_publisher_, values_publisher_,
+      colours_publisher_;
   std::array<ros::Publisher, COVER_LAYERS.size()> layer_publishers_;
 };
 

@@ -66,10 +66,9 @@ void GrassField::followCoverParts(bool is_wanted) {
   cover_parts_ = ros::Subscriber();
   covers_->clear();
   if (!is_wanted) return;
-  const boost::function<void(const GrassCoverPart&)> guarded =
-      [this](const GrassCoverPart& part) {
-        acceptInput("grass/cover/parts", [&] { onCoverPart(part); });
-      };
+  const boost::function<void(const GrassCoverPart&)> guarded = [this](const GrassCoverPart& part) {
+    acceptInput("grass/cover/parts", [&] { onCoverPart(part); });
+  };
   cover_parts_ =
       subscribeWithoutDelay<GrassCoverPart>(handle_, "grass/cover/parts", MOST_SHARDS, guarded);
 }
@@ -85,11 +84,9 @@ void GrassField::onCoverPart(const GrassCoverPart& message) {
 }
 
 void GrassField::followWhole(Nanoseconds stamp) {
-  whole_->follow(
-      areMarkersWanted(), handle_,
-      [this](const GrassState& message) {
-        acceptInput("grass/state", [&] { whole_->apply(message); });
-      });
+  whole_->follow(areMarkersWanted(), handle_, [this](const GrassState& message) {
+    acceptInput("grass/state", [&] { whole_->apply(message); });
+  });
   whole_->field().advance(stamp);
 }
 

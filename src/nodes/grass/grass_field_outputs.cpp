@@ -110,7 +110,8 @@ bool GrassField::isCoverWanted() const {
 
 void GrassField::sendCover(std::int64_t tick) {
   const bool is_wanted = isCoverWanted();
-  const bool is_part_wanted = cover_part_publisher_ && cover_part_publisher_.getNumSubscribers() > 0;
+  const bool is_part_wanted =
+      cover_part_publisher_ && cover_part_publisher_.getNumSubscribers() > 0;
   if (covers_) followCoverParts(is_wanted);
   if (recovers() || !isDue(tick, options_.cover_rate, clock_.grid().rate())) return;
   if (!is_wanted && !is_part_wanted) return;

@@ -16,7 +16,8 @@ namespace vegetation_sim {
 /// their successors may press one. Its ground is the same without the others.
 class NearTreads {
  public:
-  /// A tread is applied, or lifts its source, which has left the region of the shard, or is ignored.
+  /// A tread is applied, or lifts its source, which has left the region of the shard, or is
+  /// ignored.
   enum class Use { ALL, LIFT, NONE };
 
   /// @param margin from tiles of the shard at which a tread is far [m]; see marginOf().
@@ -37,7 +38,7 @@ class NearTreads {
   bool isFar(const TreadEvent& event) const;
 
   grass::MapLaw law_;
-  std::vector<char> is_near_;  // tiles, row by row from the south; none for one shard
+  std::vector<char> is_near_;             // tiles, row by row from the south; none for one shard
   std::unordered_set<std::string> near_;  // names of sources
 };
 

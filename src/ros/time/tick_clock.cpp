@@ -21,7 +21,8 @@ std::int64_t periodOf(std::int64_t tick, double rate, int tick_rate) {
 }  // namespace
 
 bool isDue(std::int64_t tick, double rate, int tick_rate) {
-  return rate >= tick_rate || periodOf(tick, rate, tick_rate) != periodOf(tick - 1, rate, tick_rate);
+  return rate >= tick_rate ||
+         periodOf(tick, rate, tick_rate) != periodOf(tick - 1, rate, tick_rate);
 }
 
 TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls, LateTicks late)

@@ -176,14 +176,19 @@ std::string track(bool picture, bool is_near = false) {
 
 std::vector<std::string> seeds() {
   const std::string jump = pieceOf(JUMP_BACK, std::string("\x04\x00", 2));
-  return {pieceOf(LAYOUT, encode(toMsg(lawn(false)))), track(false), track(true),
-          track(false, true), pieceOf(COVER, encode(troddenCell())), track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
+  return {pieceOf(LAYOUT, encode(toMsg(lawn(false)))),
+          track(false),
+          track(true),
+          track(false, true),
+          pieceOf(COVER, encode(troddenCell())),
+          track(false) + jump + pieceOf(PRUNE, std::string("\xff\xff", 2))};
 }
 
 }  // namespace
 
 std::vector<Target> meadowMessageTargets() {
-  return {{"grass", "GrassLayout, GrassState, NearGrass, GrassCoverPart; blades, strips, a sweep", run, seeds}};
+  return {{"grass", "GrassLayout, GrassState, NearGrass, GrassCoverPart; blades, strips, a sweep",
+           run, seeds}};
 }
 
 }  // namespace vegetation_sim::fuzz

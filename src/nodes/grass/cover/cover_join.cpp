@@ -48,8 +48,9 @@ void CoverJoin::check(const GrassCoverPart& part) const {
                          " is outside the grid or not in ascending order");
     if (!(part.crush[i] >= 0.f && part.crush[i] <= 1.f) ||
         !(part.age[i] >= 0.f && std::isfinite(part.age[i])))
-      throw InvalidInput("cover: crush = " + std::to_string(part.crush[i]) + " or age = " +
-                         std::to_string(part.age[i]) + " is impossible; allowed are 0 to 1, and "
+      throw InvalidInput("cover: crush = " + std::to_string(part.crush[i]) +
+                         " or age = " + std::to_string(part.age[i]) +
+                         " is impossible; allowed are 0 to 1, and "
                          "from 0 s on");
   }
 }

@@ -71,7 +71,7 @@ void visitTreads(const grass::TreadSimulation& field, const nav_msgs::MapMetaDat
   }
 }
 
-// Of a cell, the most trodden node counts, and the one that was trodden last.
+// The most trodden node of a cell counts, and the one that was trodden last.
 void addTread(std::size_t cell, float crush, float age, GrassCover& cover) {
   cover.crush[cell] = std::max(cover.crush[cell], crush);
   cover.age[cell] = cover.age[cell] < 0.f ? age : std::min(cover.age[cell], age);
@@ -171,8 +171,8 @@ GrassCover groundOf(const grass::FeatureMap& map, double resolution) {
   return out;
 }
 
-GrassCoverPart troddenCells(const grass::TreadSimulation& field,
-                            const nav_msgs::MapMetaData& info, double resolution) {
+GrassCoverPart troddenCells(const grass::TreadSimulation& field, const nav_msgs::MapMetaData& info,
+                            double resolution) {
   GrassCoverPart out;
   out.header.stamp = toStamp(field.stamp());
   out.info = info;
@@ -205,9 +205,8 @@ GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, doubl
   out.header.stamp = toStamp(field.stamp());
   out.crush.assign(out.density.size(), 0.f);
   out.age.assign(out.density.size(), -1.f);
-  visitTreads(field, out.info, resolution, [&](std::size_t cell, float crush, float age) {
-    addTread(cell, crush, age, out);
-  });
+  visitTreads(field, out.info, resolution,
+              [&](std::size_t cell, float crush, float age) { addTread(cell, crush, age, out); });
   CutLayers(field, resolution, out).fill();
   return out;
 }

@@ -32,8 +32,8 @@ GrassCover groundOf(const grass::FeatureMap& map, double resolution);
 /// Returns the trodden cells of a grid of this resolution. Left to the caller: frame and shard.
 GrassCoverPart troddenCells(const grass::TreadSimulation& field, const nav_msgs::MapMetaData& info,
                             double resolution);
-/// Completes the ground of this resolution by the layers that treads and cuts change, but for `resistance`. Left to
-/// the caller: the frame.
+/// Completes the ground of this resolution by the layers that treads and cuts change, but for
+/// `resistance`. Left to the caller: the frame.
 GrassCover coverOf(const grass::TreadSimulation& field, GrassCover ground, double resolution);
 /// Adds trodden cells of another shard; of a cell of both the most trodden node counts.
 void addTreads(const GrassCoverPart& part, GrassCover& cover);

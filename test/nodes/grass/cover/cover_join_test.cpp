@@ -90,9 +90,7 @@ TEST(CoverJoin, ShowsALateShardAsInTheMapBefore) {
 TEST(CoverJoin, RefusesPartsByName) {
   CoverJoin join(2);
   join.begin(ownCover(TICK), DRAG);
-  const auto fault = [&](const GrassCoverPart& part) {
-    return errorOf([&] { join.add(part); });
-  };
+  const auto fault = [&](const GrassCoverPart& part) { return errorOf([&] { join.add(part); }); };
   const GrassCoverPart good = partOf(1, TICK, 1, 0.4F, 0.F);
   EXPECT_EQ(fault(partOf(0, TICK, 1, 0.4F, 0.F)), "cover: shard = 0 is outside 1 to 1");
   EXPECT_EQ(fault(partOf(2, TICK, 1, 0.4F, 0.F)), "cover: shard = 2 is outside 1 to 1");

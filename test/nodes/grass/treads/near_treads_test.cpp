@@ -37,7 +37,8 @@ TreadEvent move(const std::string& source, double x, double y) {
 
 /// One of two shards, which has the tile at (50, 10) and none above y = 64.
 NearTreads south() {
-  return {lawOfMap(), grass::TileOwners(lawOfMap(), Shard{0, 2}), NearTreads::marginOf(STROKE, 0.8)};
+  return {lawOfMap(), grass::TileOwners(lawOfMap(), Shard{0, 2}),
+          NearTreads::marginOf(STROKE, 0.8)};
 }
 
 TEST(NearTreads, TakesWhatIsNearAndLiftsWhatLeaves) {

@@ -67,7 +67,7 @@ def cost_of(process):
 def idle_shares(processes, seconds=5.0):
     """Returns which share of a processor each process needs while the clock stands still, by pid."""
     before = {process.pid: cost_of(process)[0] for process in processes}
-    time.sleep(seconds)
+    threading.Event().wait(seconds)
     return {process.pid: (cost_of(process)[0] - before[process.pid]) / seconds for process in processes}
 
 
