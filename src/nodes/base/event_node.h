@@ -203,10 +203,14 @@ class EventNode : public SavedNode<Queue, Options> {
     double rate;  // [Hz]
     std::function<void()> send;
     bool is_due{false};
+    std::int64_t period{-1};  // of the last tick
   };
 
   void onTick(std::int64_t tick) {
-    for (Output& output : outputs_) output.is_due |= isDue(tick, output.rate, clock_.grid().rate());
+    for (Output& output : outputs_) {
+      const std::int64_t period = periodOf(tick, output.rate, clock_.grid().rate());
+      output.is_due |= std::exchange(output.period, period) != period;
+    }
     this->runTick(tick);
     this->openServices();
   }

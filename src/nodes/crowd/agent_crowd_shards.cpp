@@ -172,8 +172,11 @@ void AgentCrowd::applyBorder(std::uint64_t hash) {
     shard_->setRun(border.run);
     resetCrowd(crowd::CrowdShard::Start::RESET);
   }
+  for (auto last = walked.begin(); last != walked.end();)
+    last = crowd_.find(last->first) ? walked.erase(last) : std::next(last);
   shard_->hear(found->shard, std::move(border));
-  trodden_.insert(walked.begin(), walked.end());
+  for (const auto& [id, last] : walked)
+    if (crowd_.find(id)) trodden_.insert_or_assign(id, last);
 }
 
 // With those who have crossed the border, where they have trodden last: their tracks go on.

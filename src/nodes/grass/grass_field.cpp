@@ -88,8 +88,10 @@ void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay)
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-  if (!options_.replay) subscribe("treads", 100, &GrassField::onTreads);
+  if (!options_.replay) subscribe("treads", 1000, &GrassField::onTreads);
   subscribe("forest/sensors", 40, &GrassField::onSensor);
+  if (!options_.shard || options_.shard->count == 1)
+    repeat(options_.cover_rate, &GrassField::sendCover);
   connectServices();
 }
 
@@ -105,7 +107,7 @@ void GrassField::tick(std::int64_t tick) {
   if (whole_) followWhole(stamp);
   publishState(tick);
   publishForces(stamp);
-  sendCover(tick);
+  if (options_.shard && options_.shard->count > 1) sendCoverOfShard(tick);
 }
 
 void GrassField::apply(GrassEvent& event) {
@@ -166,7 +168,6 @@ void GrassField::resetGround() {
   if (whole_) whole_->reset();
   if (covers_) covers_->clear();
   sources_.clear();
-  near_treads_->clear();
   cutters_.clear();
   key_frames_.demand();
 }

@@ -89,7 +89,11 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void publishEntering(Nanoseconds stamp);
   GrassForces forcesAt(Nanoseconds stamp) const;
   void publishForces(Nanoseconds stamp);
-  void sendCover(std::int64_t tick);
+  void sendCover();
+  /// Shards make their maps at the same ticks.
+  void sendCoverOfShard(std::int64_t tick);
+  void sendCoverPart();
+  GrassCover makeCover();
   void publishCover(GrassCover cover);
   void followCoverParts(bool is_wanted);
   void onCoverPart(const GrassCoverPart& message);
@@ -137,6 +141,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::optional<NearTreads> near_treads_;  // those that this shard needs
   CutterFollower cutters_;
   GrassCover ground_;                // of the cover map, once it is wanted
+  std::int64_t cover_period_{-1};    // of the last tick
   std::optional<CoverJoin> covers_;  // of the node that joins the maps of all shards
   ros::Subscriber cover_parts_;      // while the map is wanted
 

@@ -52,6 +52,7 @@ void GrassField::onTread(const TreadEvent& message) {
     if (use == NearTreads::Use::NONE) return;
     if (use == NearTreads::Use::LIFT) tread.action = TreadEvent::LIFT;
     const grass::TreadInput input = fromMsg(tread, tuning_.tread, tuning_.height_gate);
+    if (use == NearTreads::Use::ALL) near_treads_->keep(tread);
     if (input.action == grass::TreadAction::STROKE) field_->checkStroke(input);
     GrassEvent event = treadEvent(input);
     event.header.stamp = effectOf(message.header.stamp, clock_);

@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <utility>
 
 #include "nodes/grass/grass_field.h"
 #include "ros/conversions/crowd_conversions.h"
@@ -108,31 +109,40 @@ bool GrassField::isCoverWanted() const {
          std::any_of(layer_publishers_.begin(), layer_publishers_.end(), is_wanted);
 }
 
-void GrassField::sendCover(std::int64_t tick) {
-  const bool is_wanted = isCoverWanted();
-  const bool is_part_wanted =
-      cover_part_publisher_ && cover_part_publisher_.getNumSubscribers() > 0;
-  if (covers_) followCoverParts(is_wanted);
-  if (recovers() || !isDue(tick, options_.cover_rate, clock_.grid().rate())) return;
-  if (!is_wanted && !is_part_wanted) return;
+GrassCover GrassField::makeCover() {
   const double resolution = options_.cover_resolution;
   if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, resolution);
-  if (is_part_wanted) {
-    GrassCoverPart part = troddenCells(*field_, ground_.info, resolution);
-    part.header.frame_id = options_.frame_id;
-    part.shard = options_.shard->index;
-    cover_part_publisher_.publish(part);
-  }
-  if (!is_wanted) return;
-  GrassCover cover = coverOf(*field_, ground_, resolution);
-  if (covers_) {
-    if (auto before = covers_->begin(std::move(cover), field_->drag()))
-      publishCover(std::move(*before));
-    if (auto joined = covers_->take()) publishCover(std::move(*joined));
-    return;
-  }
+  return coverOf(*field_, ground_, resolution);
+}
+
+void GrassField::sendCover() {
+  if (!isCoverWanted()) return;
+  GrassCover cover = makeCover();
   addResistance(field_->drag(), cover);
   publishCover(std::move(cover));
+}
+
+void GrassField::sendCoverOfShard(std::int64_t tick) {
+  if (covers_) followCoverParts(isCoverWanted());
+  const std::int64_t period = periodOf(tick, options_.cover_rate, clock_.grid().rate());
+  if (std::exchange(cover_period_, period) == period || recovers()) return;
+  if (!covers_) {
+    sendCoverPart();
+    sendCover();
+  } else if (isCoverWanted()) {
+    if (auto before = covers_->begin(makeCover(), field_->drag())) publishCover(std::move(*before));
+    if (auto joined = covers_->take()) publishCover(std::move(*joined));
+  }
+}
+
+void GrassField::sendCoverPart() {
+  if (cover_part_publisher_.getNumSubscribers() == 0) return;
+  const double resolution = options_.cover_resolution;
+  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, resolution);
+  GrassCoverPart part = troddenCells(*field_, ground_.info, resolution);
+  part.header.frame_id = options_.frame_id;
+  part.shard = options_.shard->index;
+  cover_part_publisher_.publish(part);
 }
 
 void GrassField::publishCover(GrassCover cover) {

@@ -10,6 +10,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double LONGEST_REACH = 10.0;  // of a TreadLaw [m]
+constexpr double SHORT_STROKE = 10.0;   // which passes no tile if both ends are far [m]
 
 // Sets what is within `reach` of a set value in the same line.
 // @param step from one line to the next. @param stride from one value of a line to the next.
@@ -35,7 +36,7 @@ void widen(char* values, int lines, int count, int step, int stride, int reach) 
 }  // namespace
 
 double NearTreads::marginOf(double longest_stroke, double block) {
-  return 2.0 * longest_stroke + LONGEST_REACH + block;
+  return 2.0 * longest_stroke + LONGEST_REACH + SHORT_STROKE + block;
 }
 
 NearTreads::NearTreads(const grass::MapLaw& law, const grass::TileOwners& owners, double margin)
@@ -67,21 +68,23 @@ bool NearTreads::isFar(const geometry_msgs::Point& place) const {
 
 bool NearTreads::isFar(const TreadEvent& event) const {
   if (event.action == TreadEvent::LIFT) return true;
-  if (!isFar(event.position)) return false;
+  if (event.action > TreadEvent::STROKE || !isFar(event.position)) return false;
   if (event.action != TreadEvent::STROKE) return true;
   // A long stroke may pass by.
   const double x = event.position.x - event.start.x, y = event.position.y - event.start.y;
-  return x * x + y * y <= LONGEST_REACH * LONGEST_REACH && isFar(event.start);
+  return x * x + y * y <= SHORT_STROKE * SHORT_STROKE && isFar(event.start);
 }
 
 NearTreads::Use NearTreads::useOf(const TreadEvent& event, bool is_known) {
   if (is_near_.empty()) return Use::ALL;
-  if (!isFar(event)) {
-    if (near_.size() >= MOST_NAMES) near_.clear();
-    near_.insert(event.source);
-    return Use::ALL;
-  }
-  return near_.erase(event.source) > 0 || is_known ? Use::LIFT : Use::NONE;
+  if (!isFar(event)) return Use::ALL;
+  return near_.erase(event.source) > 0 || is_known || is_full_ ? Use::LIFT : Use::NONE;
+}
+
+void NearTreads::keep(const TreadEvent& event) {
+  if (is_near_.empty()) return;
+  is_full_ |= near_.size() >= MOST_NAMES;
+  if (!is_full_) near_.insert(event.source);
 }
 
 }  // namespace vegetation_sim

@@ -29,7 +29,8 @@ class NearTreads {
 
   /// @param event in the world frame. @param is_known whether the meadow has its source.
   Use useOf(const TreadEvent& event, bool is_known);
-  void clear() { near_.clear(); }
+  /// To be called for each event of which all is used, once it has been checked.
+  void keep(const TreadEvent& event);
 
   static constexpr std::size_t MOST_NAMES = 100000;
 
@@ -40,6 +41,7 @@ class NearTreads {
   grass::MapLaw law_;
   std::vector<char> is_near_;             // tiles, row by row from the south; none for one shard
   std::unordered_set<std::string> near_;  // names of sources
+  bool is_full_{false};                   // there were more names
 };
 
 }  // namespace vegetation_sim

@@ -14,15 +14,11 @@ constexpr int LOOKS_PER_TICK = 4;            // the timer is not aligned with th
 constexpr unsigned TICK_CLOCK_QUEUE = 1000;  // a fast clock is followed message by message
 constexpr double NEWEST = 1.0 / 30.0;        // share of the newest tick in the mean cost
 
-std::int64_t periodOf(std::int64_t tick, double rate, int tick_rate) {
-  return static_cast<std::int64_t>(std::floor(static_cast<double>(tick) * (rate / tick_rate)));
-}
-
 }  // namespace
 
-bool isDue(std::int64_t tick, double rate, int tick_rate) {
-  return rate >= tick_rate ||
-         periodOf(tick, rate, tick_rate) != periodOf(tick - 1, rate, tick_rate);
+std::int64_t periodOf(std::int64_t tick, double rate, int tick_rate) {
+  if (rate >= tick_rate) return tick;
+  return static_cast<std::int64_t>(std::floor(static_cast<double>(tick) * (rate / tick_rate)));
 }
 
 TickClock::TickClock(std::string name, int rate, double delay, TickCalls calls, LateTicks late)

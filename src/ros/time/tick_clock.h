@@ -27,9 +27,9 @@ struct TickCalls {
   std::function<void()> after{};
 };
 
-/// Whether a period of 1 / rate begins with this tick, of `tick_rate` ticks per second. A higher
-/// rate is that of the ticks.
-bool isDue(std::int64_t tick, double rate, int tick_rate);
+/// Returns the number of the period of 1 / rate to which a tick belongs, of `tick_rate` ticks per
+/// second. A higher rate is that of the ticks.
+std::int64_t periodOf(std::int64_t tick, double rate, int tick_rate);
 
 /// Ticks that a late node runs: each one, or only the newest if it has no state.
 enum class LateTicks { EACH, NEWEST };

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/config/shard.h"
 #include "nodes/grass/cover/grass_cover.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -15,7 +16,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_WAITING = 4;  // parts of one shard
+constexpr std::size_t MOST_WAITING = 16;  // parts of one shard
 
 bool isSameGrid(const nav_msgs::MapMetaData& a, const nav_msgs::MapMetaData& b) {
   return a.width == b.width && a.height == b.height && a.resolution == b.resolution;
@@ -25,7 +26,10 @@ bool isSameGrid(const nav_msgs::MapMetaData& a, const nav_msgs::MapMetaData& b) 
 
 std::optional<GrassCover> CoverJoin::begin(GrassCover own, double drag) {
   std::optional<GrassCover> before;
-  if (begun_) before = join();
+  const Nanoseconds stamp = fromMsg(own.header.stamp);
+  if (!since_) since_ = stamp;
+  if (begun_ && (hasHeardAll() || isSilentShard(*since_, stamp))) before = join();
+  grid_ = own.info;
   begun_ = std::move(own);
   drag_ = drag;
   return before;
@@ -57,12 +61,20 @@ void CoverJoin::check(const GrassCoverPart& part) const {
 
 void CoverJoin::add(const GrassCoverPart& part) {
   check(part);
-  if (begun_ && !isSameGrid(part.info, begun_->info))
+  if (grid_ && !isSameGrid(part.info, *grid_))
     throw InvalidInput("cover: the grid of shard " + std::to_string(part.shard) +
                        " differs; cover_resolution must be that of all shards");
   auto& waiting = parts_[part.shard];
   waiting[fromMsg(part.header.stamp)] = part;
-  if (waiting.size() > MOST_WAITING) waiting.erase(waiting.begin());
+  // Maps are joined in their order, so the earliest parts are needed first.
+  if (waiting.size() > MOST_WAITING) waiting.erase(std::prev(waiting.end()));
+}
+
+bool CoverJoin::hasHeardAll() const {
+  for (std::uint32_t shard = 1; shard < shards_; ++shard)
+    if (const auto found = parts_.find(shard); found == parts_.end() || found->second.empty())
+      return false;
+  return true;
 }
 
 std::optional<GrassCover> CoverJoin::take() {
@@ -92,6 +104,7 @@ GrassCover CoverJoin::join() {
 
 void CoverJoin::clear() {
   begun_.reset();
+  since_.reset();
   parts_.clear();
 }
 

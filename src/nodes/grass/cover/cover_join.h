@@ -15,7 +15,7 @@ namespace vegetation_sim {
 
 /// Joins the trodden cells of all shards of a meadow to one cover map per period: once those of its
 /// tick have come from all shards, or when the next map begins, with the last ones of shards that
-/// are late.
+/// are late. Until all shards have been heard, or for SHARD_SILENCE, there is no map.
 class CoverJoin {
  public:
   /// @param shards their number, from 2 on.
@@ -33,11 +33,14 @@ class CoverJoin {
 
  private:
   void check(const GrassCoverPart& part) const;
+  bool hasHeardAll() const;
   GrassCover join();
 
   std::uint32_t shards_;
   double drag_{0.0};
   std::optional<GrassCover> begun_;
+  std::optional<Nanoseconds> since_;                                      // stamp of the first map
+  std::optional<nav_msgs::MapMetaData> grid_;                             // of the last map
   std::map<std::uint32_t, std::map<Nanoseconds, GrassCoverPart>> parts_;  // by shard and tick
 };
 

@@ -113,13 +113,35 @@ TEST(CoverJoin, RefusesPartsByName) {
   EXPECT_TRUE(join.take());
 }
 
-TEST(CoverJoin, KeepsAFewPartsOfAShardOnly) {
+TEST(CoverJoin, KeepsTheEarliestPartsOfAShard) {
   CoverJoin join(2);
   for (int i = 1; i <= 1000; ++i) join.add(partOf(1, i * TICK, 1, 0.4F, 0.F));
-  join.begin(ownCover(TICK), DRAG);
+  for (int i = 1; i <= 16; ++i) {
+    join.begin(ownCover(i * TICK), DRAG);
+    EXPECT_TRUE(join.take()) << i;
+  }
+  join.begin(ownCover(17 * TICK), DRAG);
   EXPECT_FALSE(join.take());  // its part had to go
-  join.begin(ownCover(1000 * TICK), DRAG);
-  EXPECT_TRUE(join.take());
+}
+
+TEST(CoverJoin, WaitsForTheFirstPartsOfAllShards) {
+  CoverJoin join(3);
+  join.begin(ownCover(TICK), DRAG);
+  join.add(partOf(1, TICK, 1, 0.4F, 0.F));
+  EXPECT_FALSE(join.begin(ownCover(2 * TICK), DRAG));  // shard 2 has sent nothing
+  join.add(partOf(2, TICK, 2, 0.4F, 0.F));
+  const auto map = join.begin(ownCover(3 * TICK), DRAG);
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->crush, (std::vector<float>{0.5F, 0.4F, 0.4F, 0.F}));
+}
+
+TEST(CoverJoin, ShowsAMapWithoutASilentShardAfterAWhile) {
+  CoverJoin join(2);
+  for (int i = 1; i <= 4; ++i) EXPECT_FALSE(join.begin(ownCover(i * TICK), DRAG)) << i;
+  EXPECT_TRUE(join.begin(ownCover(5 * TICK), DRAG));
+  join.clear();
+  EXPECT_FALSE(join.begin(ownCover(6 * TICK), DRAG));
+  EXPECT_FALSE(join.begin(ownCover(7 * TICK), DRAG));
 }
 
 }  // namespace

@@ -43,11 +43,12 @@ NearTreads south() {
 
 TEST(NearTreads, TakesWhatIsNearAndLiftsWhatLeaves) {
   NearTreads near = south();
-  EXPECT_EQ(near.useOf(move("a", 50.0, 90.0), false), Use::NONE);
-  EXPECT_EQ(near.useOf(move("a", 50.0, 70.0), false), Use::ALL);  // within the margin of 20.8 m
-  EXPECT_EQ(near.useOf(move("a", 50.0, 90.0), false), Use::LIFT);
-  EXPECT_EQ(near.useOf(move("a", 50.0, 91.0), false), Use::NONE);
-  EXPECT_EQ(near.useOf(move("b", 50.0, 90.0), true), Use::LIFT);  // after a checkpoint
+  EXPECT_EQ(near.useOf(move("a", 50.0, 98.0), false), Use::NONE);
+  EXPECT_EQ(near.useOf(move("a", 50.0, 70.0), false), Use::ALL);  // within the margin of 30.8 m
+  near.keep(move("a", 50.0, 70.0));
+  EXPECT_EQ(near.useOf(move("a", 50.0, 97.0), false), Use::LIFT);
+  EXPECT_EQ(near.useOf(move("a", 50.0, 98.0), false), Use::NONE);
+  EXPECT_EQ(near.useOf(move("b", 50.0, 97.0), true), Use::LIFT);  // after a checkpoint
 }
 
 TEST(NearTreads, TakesLongStrokesAndWhatIsNotFinite) {
@@ -57,10 +58,22 @@ TEST(NearTreads, TakesLongStrokesAndWhatIsNotFinite) {
   stroke.start.x = 50.0;
   stroke.start.y = 80.0;
   EXPECT_EQ(near.useOf(stroke, false), Use::ALL);
+  near.keep(stroke);
   stroke.start.y = 98.0;
   EXPECT_EQ(near.useOf(stroke, false), Use::LIFT);  // it was there before
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(near.useOf(move("b", 50.0, nan), false), Use::ALL);  // refused by its checks
+  TreadEvent unknown = move("b", 50.0, 98.0);
+  unknown.action = 9;
+  EXPECT_EQ(near.useOf(unknown, false), Use::ALL);  // likewise
+}
+
+TEST(NearTreads, LiftsAllIfThereAreTooManyNames) {
+  NearTreads near = south();
+  EXPECT_EQ(near.useOf(move("other", 50.0, 98.0), false), Use::NONE);
+  for (std::size_t i = 0; i <= NearTreads::MOST_NAMES; ++i)
+    near.keep(move(std::to_string(i), 50.0, 10.0));
+  EXPECT_EQ(near.useOf(move("other", 50.0, 98.0), false), Use::LIFT);
 }
 
 TEST(NearTreads, OneShardTakesAll) {
@@ -83,6 +96,7 @@ class Ground {
         takes_all_ ? Use::ALL : near_.useOf(event, simulation_.sources().count(event.source) > 0);
     if (use == Use::NONE) return;
     if (use == Use::LIFT) event.action = TreadEvent::LIFT;
+    if (use == Use::ALL) near_.keep(event);
     simulation_.apply(fromMsg(event, grass::TreadLaw(), 0.3), stamp);
     ++taken_;
   }
