@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Measures the processor time and memory of forest and grass in 1, 2, 4 and 8 shards, and the bytes
-# that a display and a lidar receive with the same view in a world and in one of a quarter the size:
-# a million trees, a square kilometre of grass and 2000 walkers. The script sets the clock.
-# usage: scripts/shard_rates.sh [TILES [WALKERS [TICKS [AREA [RANGE]]]]]
-#        (1024 tiles of 1000 trees, 2000, 300 ticks, TILES x 1000 m2 of grass, views of 100 m)
+# Measures the processor time and memory of forest and grass in 1, 2, 4 and 8 shards, in turn and
+# in several rounds, of which the median counts, and the bytes that a display and a lidar receive
+# with the same view in a world and in one of a quarter the size: a million trees, a square
+# kilometre of grass and 2000 walkers. The script sets the clock, and takes half an hour.
+# usage: scripts/shard_rates.sh [TILES [WALKERS [TICKS [AREA [RANGE [ROUNDS]]]]]]
+#        (1024 tiles of 1000 trees, 2000, 300 ticks, TILES x 1000 m2 of grass, views of 100 m, 3)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$ROOT"
@@ -13,7 +14,7 @@ use_space "$DEVEL"
 export PATH=/usr/bin:/usr/sbin:/sbin:$PATH PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH=$ROOT/test/nodes/rigs:$ROOT/test/nodes/shards:$PYTHONPATH
 tiles=${1:-1024} walkers=${2:-2000} ticks=${3:-300}
-area=${4:-$((1000 * tiles))} range=${5:-100}
+area=${4:-$((1000 * tiles))} range=${5:-100} rounds=${6:-3}
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 
@@ -28,9 +29,25 @@ measure() {
     { tail -n 20 "$WORK/errors.log" >&2; fail 'the measurement did not end'; }
 }
 
-for shards in 1 2 4 8; do measure "$tiles" "$walkers" "$shards"; done | tee "$WORK/rows"
-awk '/ms of processor time/ { sum[$1] += $4 } END { for (n = 2; n <= 8; n *= 2)
-  printf "%d shards need %.2f times the processor time of one\n", n, sum[n] / sum[1] }' "$WORK/rows"
+for ((round = 0; round < rounds; ++round)); do
+  for shards in 1 2 4 8; do measure "$tiles" "$walkers" "$shards"; done
+done | tee "$WORK/rows"
+python3 - "$WORK/rows" <<'END'
+import collections
+import statistics
+import sys
+
+# Successive rows of a number of shards are those of the forest and of the grass in one round.
+times = collections.defaultdict(list)
+for row in open(sys.argv[1], encoding='utf-8'):
+    if 'ms of processor time' in row:
+        times[int(row.split()[0])].append(float(row.split()[3]))
+sums = {shards: [sum(pair) for pair in zip(rows[::2], rows[1::2])] for shards, rows in times.items()}
+for shards, rounds in sorted(sums.items()):
+    ratios = [time / one for time, one in zip(rounds, sums[1])]
+    print('%d shards: %.1f ms, %.2f times the processor time of one (%.2f to %.2f)' % (
+        shards, statistics.median(rounds), statistics.median(ratios), min(ratios), max(ratios)))
+END
 echo 'One display and one lidar, in the world and in one of a quarter the size:'
 for part in 1 4; do
   measure $((tiles / part)) $((walkers / part)) 2 $((area / part)) 1 "$range"

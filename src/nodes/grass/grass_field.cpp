@@ -54,7 +54,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
-  if (options_.shard && options_.shard->count > 1 && showsAll()) {
+  if (isPart() && showsAll()) {
     whole_ = std::make_unique<WholeMeadow>(layout, scene.terrain, scene.grass.treading);
     whole_->field().setDrag(tuning_.drag);
     covers_.emplace(options_.shard->count);
@@ -86,12 +86,12 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
-  if (!options_.replay)
+  if (!options_.replay) {
     subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-  if (!options_.replay) subscribe("treads", 1000, &GrassField::onTreads);
+    subscribe("treads", 1000, &GrassField::onTreads);
+  }
   subscribe("forest/sensors", 40, &GrassField::onSensor);
-  if (!options_.shard || options_.shard->count == 1)
-    repeat(options_.cover_rate, &GrassField::sendCover);
+  if (!isPart()) repeat(options_.cover_rate, &GrassField::sendCover);
   connectServices();
 }
 
@@ -107,7 +107,7 @@ void GrassField::tick(std::int64_t tick) {
   if (whole_) followWhole(stamp);
   publishState(tick);
   publishForces(stamp);
-  if (options_.shard && options_.shard->count > 1) sendCoverOfShard(tick);
+  if (isPart()) sendCoverOfShard(tick);
 }
 
 void GrassField::apply(GrassEvent& event) {

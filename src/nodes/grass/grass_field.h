@@ -93,6 +93,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   /// Shards make their maps at the same ticks.
   void sendCoverOfShard(std::int64_t tick);
   void sendCoverPart();
+  const GrassCover& untroddenCover();
   GrassCover makeCover();
   void publishCover(GrassCover cover);
   void followCoverParts(bool is_wanted);
@@ -115,6 +116,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
   GrassSample sampleAt(const Vec3& place, Nanoseconds stamp) const;
+  bool isPart() const { return options_.shard && options_.shard->count > 1; }
   /// Whether the node shows the meadow of all shards, which shard 0 does for all.
   bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
   std::string shownTopic(const std::string& topic) const;
@@ -140,7 +142,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassSources sources_;
   std::optional<NearTreads> near_treads_;  // those that this shard needs
   CutterFollower cutters_;
-  GrassCover ground_;                // of the cover map, once it is wanted
+  GrassCover untrodden_;             // cover map of the ground at rest, once it is wanted
   std::int64_t cover_period_{-1};    // of the last tick
   std::optional<CoverJoin> covers_;  // of the node that joins the maps of all shards
   ros::Subscriber cover_parts_;      // while the map is wanted

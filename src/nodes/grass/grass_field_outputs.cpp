@@ -109,10 +109,14 @@ bool GrassField::isCoverWanted() const {
          std::any_of(layer_publishers_.begin(), layer_publishers_.end(), is_wanted);
 }
 
+const GrassCover& GrassField::untroddenCover() {
+  if (untrodden_.density.empty())
+    untrodden_ = groundOf(*field_->layout().map, options_.cover_resolution);
+  return untrodden_;
+}
+
 GrassCover GrassField::makeCover() {
-  const double resolution = options_.cover_resolution;
-  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, resolution);
-  return coverOf(*field_, ground_, resolution);
+  return coverOf(*field_, untroddenCover(), options_.cover_resolution);
 }
 
 void GrassField::sendCover() {
@@ -137,9 +141,7 @@ void GrassField::sendCoverOfShard(std::int64_t tick) {
 
 void GrassField::sendCoverPart() {
   if (cover_part_publisher_.getNumSubscribers() == 0) return;
-  const double resolution = options_.cover_resolution;
-  if (ground_.density.empty()) ground_ = groundOf(*field_->layout().map, resolution);
-  GrassCoverPart part = troddenCells(*field_, ground_.info, resolution);
+  GrassCoverPart part = troddenCells(*field_, untroddenCover().info, options_.cover_resolution);
   part.header.frame_id = options_.frame_id;
   part.shard = options_.shard->index;
   cover_part_publisher_.publish(part);
