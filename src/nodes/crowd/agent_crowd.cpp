@@ -26,7 +26,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                 loadCrowdOptions(private_handle)),
       crowd_(options_.scene.seed, options_.tuning, options_.scene.crowd.area,
              options_.scene.terrain),
-      markers_(crowd_, options_.marker_points, options_.tolerance, options_.motions),
+      markers_(crowd_, options_.marker_points, options_.tolerance, options_.motions,
+               options_.shard.value_or(Shard())),
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
@@ -50,8 +51,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
     parts_publisher_ = handle_.advertise<CrowdPart>("agents/parts", 100);
   }
   treads_publisher_ = handle_.advertise<TreadEvents>("treads", 1000);
-  const std::string markers = "agents/markers";
-  start("crowd", (showsAll() ? markers : private_handle_.resolveName(markers)).c_str(), markers_);
+  start("crowd", "agents/markers", markers_);
   publishBorder();
 }
 

@@ -81,9 +81,9 @@ void addLimb(TriangleLists& lists, const crowd::Limb& limb, std::size_t part, in
 }  // namespace
 
 CrowdMarkers::CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
-                           const crowd::MotionStyles& styles)
+                           const crowd::MotionStyles& styles, const Shard& shard)
     : crowd_(crowd), tolerance_(tolerance), styles_(styles) {
-  lists_.addList("people", static_cast<std::size_t>(points) / 3 * 3);
+  lists_.addList(namespaceOf("people", shard), static_cast<std::size_t>(points) / 3 * 3);
 }
 
 void CrowdMarkers::addPerson(const crowd::Walker& walker, int sides) {

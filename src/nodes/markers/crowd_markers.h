@@ -17,9 +17,9 @@ namespace vegetation_sim {
 /// error each point reduces most.
 class CrowdMarkers : public MarkerBuilder {
  public:
-  /// @param points of the list. @param tolerance [pixel]
+  /// @param points of the list. @param tolerance [pixel] @param shard whose people are drawn.
   CrowdMarkers(const crowd::Crowd& crowd, int points, double tolerance,
-               const crowd::MotionStyles& styles);
+               const crowd::MotionStyles& styles, const Shard& shard = {});
 
   /// Without viewers, all walkers have the same size in the picture.
   void build(const std::vector<Viewpoint>& viewers, Nanoseconds stamp) override;

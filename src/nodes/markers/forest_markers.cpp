@@ -56,11 +56,9 @@ std::vector<std::pair<double, const forest::Tile*>> tilesInOrder(
 
 ForestMarkers::ForestMarkers(const forest::Forest& forest, forest::TreeCache& cache, int points)
     : forest_(forest), cache_(cache) {
-  // Shards publish on one topic.
-  const std::string of_shard =
-      forest.shard().count == 1 ? "" : "_" + std::to_string(forest.shard().index);
-  lists_.addList("bark" + of_shard, static_cast<std::size_t>(points) / 2 / 3 * 3);
-  lists_.addList("leaves" + of_shard, static_cast<std::size_t>(points) / 2 / 6 * 6);
+  const auto half = static_cast<std::size_t>(points) / 2;
+  lists_.addList(namespaceOf("bark", forest.shard()), half / 3 * 3);
+  lists_.addList(namespaceOf("leaves", forest.shard()), half / 6 * 6);
 }
 
 void ForestMarkers::reset() {

@@ -23,6 +23,10 @@ void MarkerPublisher::report(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("Marker budget [points]", builder_.lists().budget());
 }
 
+std::string namespaceOf(const std::string& list, const Shard& shard) {
+  return shard.count == 1 ? list : list + "_" + std::to_string(shard.index);
+}
+
 double largestScale(const std::vector<Viewpoint>& viewers, const Vec3& place, double reach) {
   double out = 0.0;
   for (const Viewpoint& viewer : viewers)

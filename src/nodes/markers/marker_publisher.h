@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/config/shard.h"
 #include "nodes/markers/triangle_lists.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
 #include "vegetation_sim/core/math/time.h"
@@ -43,6 +44,9 @@ class MarkerPublisher {
   std::string frame_id_;
   MarkerBuilder& builder_;
 };
+
+/// Returns the namespace of a list. Shards publish on one topic, each with namespaces of its own.
+std::string namespaceOf(const std::string& list, const Shard& shard);
 
 /// Returns the most pixels that a metre takes for any viewer, at a place or up to `reach` [m]
 /// nearer.

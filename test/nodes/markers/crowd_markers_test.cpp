@@ -57,6 +57,18 @@ TEST(CrowdMarkers, NothingIsDrawnWithoutPeople) {
   EXPECT_EQ(marker().points.size(), 60000u);
 }
 
+TEST(CrowdMarkers, ShardsHaveListsOfTheirOwn) {
+  Row row(1);
+  const auto name = [&](const Shard& shard) {
+    CrowdMarkers markers(row.crowd, 60000, 1.0, crowd::ownStyles(), shard);
+    markers.build({row.viewer}, 0);
+    return markers.lists().message("map").markers[0].ns;
+  };
+  EXPECT_EQ(name({0, 1}), "people");
+  EXPECT_EQ(name({0, 2}), "people_0");
+  EXPECT_EQ(name({1, 2}), "people_1");
+}
+
 // N7: the limit of points applies. With a few points less some people are coarser; with half of the
 // points some are left out.
 TEST(CrowdMarkers, LimitOfPointsCoarsensPeopleBeforeAnyIsLeftOut) {

@@ -16,6 +16,7 @@ from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from vegetation_sim.msg import AgentSpawn, AgentStates, CrowdBorder, CrowdPart, ErrorCode
 from vegetation_sim.srv import RemoveAgents, SetAgentGoal, SpawnAgents
+from visualization_msgs.msg import MarkerArray
 
 from forest_rig import RATE, start_node, stop, time_of
 from waiting import DEADLINE, SimulatedClock, wait_for
@@ -99,6 +100,16 @@ class CrowdShards(unittest.TestCase):
             wait_for(self.agents.connected, '/agents')
             self.run_ticks(60)
             self.check_equal(first)
+
+    def test_2_markers_of_all_are_on_one_topic(self):
+        markers = Log('/agents/markers', MarkerArray)
+        wait_for(markers.connected, markers.topic)
+        self.run_ticks(30)
+        drawn = markers.wait(lambda all: {m.ns: len(m.points) for array in all for m in array.markers
+                                          if len(all) > SHARDS}, 'markers')
+        markers.close()
+        self.assertEqual(set(drawn), {'people_0', 'people_1'})
+        self.assertTrue(all(drawn.values()), drawn)
 
     def ask(self, shard, name, service_type, **request):
         service = '/crowd_%d/%s' % (shard, name)

@@ -32,6 +32,9 @@ class ShardsLaunch(unittest.TestCase):
                              {i: ('/%s_%d' % (part, i), COUNT) for i in range(COUNT)})
             Log('/%s/state' % part, state).wait(
                 lambda all: {m.shard for m in all} == set(range(COUNT)), 'states of all')
+        people = Log('/crowd/shards', ShardNode)
+        people.wait(lambda all: len({m.shard for m in all}) == COUNT, 'shards of the crowd')
+        self.assertEqual([rospy.get_param('/crowd_%d/tread_ahead' % i) for i in range(COUNT)], [3] * COUNT)
         rospy.wait_for_service('/forest_0/get_tree', timeout=60.0)
         trees = rospy.ServiceProxy('/forest_0/find_trees', FindTrees)(all=True, limit=1).total
         self.assertGreater(trees, COUNT)
