@@ -17,8 +17,7 @@ import rospy
 from geometry_msgs.msg import Pose, TransformStamped, Twist
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from tf2_msgs.msg import TFMessage
-from vegetation_sim import Grass, VegetationError
-from vegetation_sim.msg import GrassLayout
+from vegetation_sim import Ground
 from visualization_msgs.msg import (InteractiveMarker, InteractiveMarkerControl,
                                     InteractiveMarkerFeedback, Marker, MarkerArray)
 
@@ -31,7 +30,6 @@ TOP_TURN = 3.0  # [rad/s]
 FARTHEST = 1e5  # Largest coordinate of a place to which the stone rolls [m].
 COMMAND_TIMEOUT = 0.5  # A command expires after this time. [s]
 LONGEST_STEP = 0.5  # A command does not act in a longer step of the clock. [s]
-SLOPE_STEP = 0.1  # Distance of the points that give the slope of the ground [m].
 
 
 def place(seconds):
@@ -64,33 +62,6 @@ def check(topic, unit, low, high, **values):
         if not low <= value <= high:  # also for NaN
             raise ValueError('%s: %s = %g %s is not within %g to %g %s' % (
                 topic, name.replace('_', '.'), value, unit, low, high, unit))
-
-
-class Ground:
-    """Height of the ground. It is flat unless the layout of grass_field names a height map."""
-
-    def __init__(self):
-        self.grass, self.last = None, (0.0, (0.0, 0.0, 1.0))
-        self.subscriber = rospy.Subscriber('grass/layout', GrassLayout, self.on_layout)
-
-    def on_layout(self, layout):
-        if layout.terrain and not self.grass:
-            self.grass = Grass(rospy.resolve_name('grass_field'))
-
-    def at(self, x, y):
-        """Returns height [m] and normal, or the last ones if grass_field does not answer."""
-        if not self.grass:
-            return self.last
-        try:
-            here, east, north = (sample.position.z for sample in self.grass.at(
-                (x, y), (x + SLOPE_STEP, y), (x, y + SLOPE_STEP)))
-        except VegetationError as error:
-            rospy.logwarn_throttle(5.0, str(error))
-            return self.last
-        slope = ((here - east) / SLOPE_STEP, (here - north) / SLOPE_STEP, 1.0)
-        length = math.sqrt(sum(part * part for part in slope))
-        self.last = here, tuple(part / length for part in slope)
-        return self.last
 
 
 class RollingStone:

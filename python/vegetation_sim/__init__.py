@@ -5,6 +5,7 @@ from vegetation_sim.client import VegetationError
 from vegetation_sim.crowd import Crowd
 from vegetation_sim.forest import Forest, Hold
 from vegetation_sim.grass import Grass
+from vegetation_sim.ground import Ground
 from vegetation_sim.plants import Plants
 from vegetation_sim.recording import Recording
 from vegetation_sim.scene import Scene
@@ -12,5 +13,5 @@ from vegetation_sim.simulation import Simulation
 from vegetation_sim.sky import Sky
 from vegetation_sim.wind import Wind
 
-__all__ = ['Crowd', 'Forest', 'Grass', 'Hold', 'Plants', 'Recording', 'Scene', 'Simulation', 'Sky',
-           'VegetationError', 'Wind']
+__all__ = ['Crowd', 'Forest', 'Grass', 'Ground', 'Hold', 'Plants', 'Recording', 'Scene', 'Simulation',
+           'Sky', 'VegetationError', 'Wind']

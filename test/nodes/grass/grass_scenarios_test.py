@@ -25,7 +25,8 @@ from watched_node import Log, publisher
 
 RADIUS = 0.45  # of the stone [m]
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
-         'hills': ['/agent_crowd', '/forest_animator', '/grass_field', '/stone', '/wind_broadcaster'],
+         'hills': ['/agent_crowd', '/driver', '/forest_animator', '/grass_field', '/robot', '/stone',
+                   '/wind_broadcaster'],
          'mowing': ['/mower', '/grass_field', '/wind_broadcaster'],
          'meadow_robot': ['/robot', '/driver', '/grass_field', '/wind_broadcaster']}
 
@@ -203,6 +204,8 @@ class GrassScenarios(unittest.TestCase):
     # S2-36: the scene of paper 2.
     def test_people_tread_a_hillside_between_trees(self):
         self.start('hills')
+        truth = Log('/base_pose_ground_truth', Odometry)
+        self.addCleanup(truth.close)
         self.run_until(lambda: len({t.source for t in self.treads()}) > 30, 'people')
         self.run_until(lambda: len(self.treads()) > 2000, 'people who walk')
         down = [t.position for t in self.treads()]
@@ -214,6 +217,19 @@ class GrassScenarios(unittest.TestCase):
         user = User(self)
         user.roll(2 * RATE, 1.0, 0.0, 0.5)
         self.check_rest([t.translation for t in user.places()])
+        self.check_robot([m.pose.pose.position for m in truth.messages])
+
+    def check_robot(self, places):
+        """Checks that the robot has driven over the slope, on which it stands and treads."""
+        places = places[5::20]  # At first it does not know the slope.
+        self.assertGreater(math.hypot(places[-1].x - places[0].x, places[-1].y - places[0].y), 1.0)
+        heights = [s.position.z for s in self.meadow.samples([(p.x, p.y) for p in places])]
+        self.assertGreater(max(heights) - min(heights), 0.1)
+        for place, height in zip(places, heights):
+            self.assertAlmostEqual(place.z, height, delta=0.05)
+        wheel = [e.tread.position for e in self.meadow.events.messages
+                 if e.tread.source == 'left_wheel_contact'][5:-2]
+        self.assertGreater(min(s.tilt for s in self.meadow.samples([(p.x, p.y) for p in wheel])), 1.0)
 
     def check_rest(self, places):
         """Checks that a stone touches the slope that it has climbed or descended, and treads it."""
