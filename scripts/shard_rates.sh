@@ -37,6 +37,8 @@ import collections
 import statistics
 import sys
 
+LIMIT = 1.15  # times the processor time of one shard
+good = True
 # Successive rows of a number of shards are those of the forest and of the grass in one round.
 times = collections.defaultdict(list)
 for row in open(sys.argv[1], encoding='utf-8'):
@@ -47,11 +49,15 @@ for shards, rounds in sorted(sums.items()):
     ratios = [time / one for time, one in zip(rounds, sums[1])]
     print('%d shards: %.1f ms, %.2f times the processor time of one (%.2f to %.2f)' % (
         shards, statistics.median(rounds), statistics.median(ratios), min(ratios), max(ratios)))
+    good = good and statistics.median(ratios) <= LIMIT
+sys.exit(0 if good else 'more than %g times the processor time of one shard' % LIMIT)
 END
 echo 'One display and one lidar, in the world and in one of a quarter the size:'
 for part in 1 4; do
   measure $((tiles / part)) $((walkers / part)) 2 $((area / part)) 1 "$range"
 done | tee "$WORK/rows"
 awk '/ display: | lidar: / { name = $5; sub(":", "", name); if (name in first)
-  printf "%s: %.3f times the bytes of the smaller world\n", name, first[name] / $6
-  else first[name] = $6 }' "$WORK/rows"
+  { ratio = first[name] / $6; printf "%s: %.3f times the bytes of the smaller world\n", name, ratio
+    if (ratio > 1.2) bad = 1 }
+  else first[name] = $6 }
+  END { if (bad) print "more than 1.2 times the bytes of the smaller world"; exit bad }' "$WORK/rows"

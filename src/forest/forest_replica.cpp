@@ -51,12 +51,13 @@ bool ForestReplica::apply(const StateUpdate& update) {
     why_ = "no layout yet";
     return false;
   }
-  Part& part = choosePart(update);
   if (update.layout_hash != layout_hash_) {
     why_ = "state belongs to another layout";
-    part.in_sequence = false;
+    if (std::max<std::uint32_t>(1, update.shards) == shards() && update.shard < parts_.size())
+      parts_[update.shard].in_sequence = false;
     return false;
   }
+  Part& part = choosePart(update);
   if (!update.key_frame && !(part.in_sequence && update.sequence == part.sequence + 1)) {
     if (part.in_sequence) why_ = "messages were lost";
     part.in_sequence = false;

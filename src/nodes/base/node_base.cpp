@@ -91,9 +91,12 @@ void NodeBase::joinShards(const std::string& topic, ShardNode own, double time_l
   shard_publisher_ = handle_.advertise<ShardNode>(topic, 1, true);
   announceShard();
   requireFit(handle_, topic, shards_->registry());
-  const boost::function<void(const ShardNode&)> hear = [this, topic](const ShardNode& message) {
-    acceptInput(topic,
-                [&] { shards_->registry().hear(message, std::chrono::steady_clock::now()); });
+  using Event = ros::MessageEvent<ShardNode const>;
+  const boost::function<void(const Event&)> hear = [this, topic](const Event& event) {
+    acceptInput(topic, [&] {
+      shards_->registry().hear(*event.getMessage(), event.getPublisherName(),
+                               std::chrono::steady_clock::now());
+    });
   };
   subscribers_.push_back(handle_.subscribe<ShardNode>(topic, MOST_SHARDS, hear));
 }

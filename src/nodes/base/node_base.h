@@ -52,6 +52,21 @@ class NodeBase {
     subscribe(topic, queue, callback);
     owned_.push_back(subscribers_.back());
   }
+  /// Subscribes to a topic of the node's shards. Messages of a shard from another process than its
+  /// own are refused.
+  template <class Node, class Message>
+  ros::Subscriber subscribeToShards(const char* topic, unsigned queue,
+                                    void (Node::*callback)(const Message&)) {
+    using Event = ros::MessageEvent<Message const>;
+    const boost::function<void(const Event&)> guarded = [this, topic,
+                                                         callback](const Event& event) {
+      acceptInput(topic, [&] {
+        shards_->registry().checkSender(event.getMessage()->shard, event.getPublisherName());
+        (static_cast<Node*>(this)->*callback)(*event.getMessage());
+      });
+    };
+    return subscribeWithoutDelay<Message>(handle_, topic, queue, guarded);
+  }
   /// Adds a service, whose response has `success` and `message`; refused requests are counted. It
   /// is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>

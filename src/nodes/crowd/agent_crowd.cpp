@@ -37,8 +37,16 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   populate(crowd::CrowdShard::Start::FRESH);
   if (isPart()) {
     borders_ = HashedCache<CrowdBorder>(2 * std::size_t{options_.shard->count});
-    inbox_ = std::make_unique<BorderInbox>(handle_, *options_.shard,
-                                           std::max(SHORTEST_WAIT, options_.frame_wait));
+    const auto is_from_shard = [this](std::uint32_t shard, const std::string& process) {
+      bool is_accepted = false;
+      acceptInput("agents/border", [&] {
+        shards()->registry().checkSender(shard, process);
+        is_accepted = true;
+      });
+      return is_accepted;
+    };
+    inbox_ = std::make_unique<BorderInbox>(
+        handle_, *options_.shard, std::max(SHORTEST_WAIT, options_.frame_wait), is_from_shard);
     border_publisher_ = handle_.advertise<CrowdBorder>("agents/border", 100, true);
   }
   if (showsAll()) {
@@ -56,10 +64,11 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 }
 
 void AgentCrowd::connect() {
-  subscribeToOwner("forest/layout", 4, &AgentCrowd::onLayout);
+  subscribe("forest/layout", 4, &AgentCrowd::onLayout);  // from any shard of the forest
   subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
   if (showsAll()) subscribe("forest/sensors", 40, &AgentCrowd::onSensor);
-  if (isPart() && showsAll()) subscribe("agents/parts", 1000, &AgentCrowd::onPart);
+  if (isPart() && showsAll())
+    parts_subscriber_ = subscribeToShards("agents/parts", 1000, &AgentCrowd::onPart);
   connectServices();
   repeat(options_.tf_rate, &AgentCrowd::sendFrames);
 }

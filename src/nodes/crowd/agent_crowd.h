@@ -55,7 +55,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   bool isOutdated(const CrowdEvent& event) const override;
   void followRobots(Nanoseconds stamp);
   /// Queues an event that names a message by its hash.
-  void enqueueHash(std::uint8_t kind, std::uint64_t hash);
+  /// @param stamp of the tick at which it acts; 0: the next one.
+  void enqueueHash(std::uint8_t kind, std::uint64_t hash, Nanoseconds stamp = 0);
 
   // Time.
   static constexpr std::uint8_t BORDER = 10;  // kind of events: see CrowdEvent
@@ -167,7 +168,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::map<Nanoseconds, Parts> parts_;          // by stamp, that wait for other shards
   std::map<std::uint32_t, Nanoseconds> heard_;  // stamp of the newest part of each shard
   Parts last_parts_;
-  Nanoseconds joined_{0};  // stamp of the last people of all shards
+  Nanoseconds joined_{0};             // stamp of the last people of all shards
+  ros::Subscriber parts_subscriber_;  // of the node that joins them
   CrowdMarkers markers_;
   CrowdRobots robots_;
   SensorRegistry sensors_;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
+/// From the tick of a cover map to that at which all shards apply it.
+constexpr Nanoseconds COVER_LEAD = NANOSECONDS_PER_SECOND / 5;
 
 }  // namespace
 
@@ -21,8 +23,9 @@ crowd::Point AgentCrowd::placeInWorld(const geometry_msgs::Point& point, const P
   return {out.x(), out.y()};
 }
 
-void AgentCrowd::enqueueHash(std::uint8_t kind, std::uint64_t hash) {
+void AgentCrowd::enqueueHash(std::uint8_t kind, std::uint64_t hash, Nanoseconds stamp) {
   CrowdEvent event;
+  event.header.stamp = toStamp(stamp);
   event.kind = kind;
   event.input_hash = hash;
   enqueue(event);
@@ -46,7 +49,11 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
     if (hash == heard_cover_) return;
     covers_.keep(hash, message);
     heard_cover_ = hash;
-    enqueueHash(CrowdEvent::COVER, hash);
+    // A map of another clock acts at the next tick.
+    const Nanoseconds stamp = fromMsg(message.header.stamp) + COVER_LEAD;
+    const bool is_soon =
+        clock_.hasBegun() && stamp > clock_.stamp() && stamp <= clock_.stamp() + 2 * COVER_LEAD;
+    enqueueHash(CrowdEvent::COVER, hash, is_soon ? stamp : 0);
   });
 }
 

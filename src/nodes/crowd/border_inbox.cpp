@@ -4,6 +4,8 @@
 
 #include <ros/time.h>
 
+#include <utility>
+
 #include "ros/services/subscriptions.h"
 
 namespace vegetation_sim {
@@ -14,12 +16,17 @@ constexpr unsigned BORDER_QUEUE = 1000;
 
 }  // namespace
 
-BorderInbox::BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait)
+BorderInbox::BorderInbox(
+    ros::NodeHandle handle, const Shard& shard, double wait,
+    std::function<bool(std::uint32_t shard, const std::string& process)> is_from_shard)
     : wait_(wait), borders_(shard) {
   handle.setCallbackQueue(&queue_);
-  const boost::function<void(const CrowdBorder&)> callback = [this](const CrowdBorder& message) {
-    borders_.add(message);
-  };
+  using Event = ros::MessageEvent<CrowdBorder const>;
+  const boost::function<void(const Event&)> callback =
+      [this, is_from_shard = std::move(is_from_shard)](const Event& event) {
+        if (is_from_shard(event.getMessage()->shard, event.getPublisherName()))
+          borders_.add(*event.getMessage());
+      };
   subscriber_ = subscribeWithoutDelay<CrowdBorder>(handle, "agents/border", BORDER_QUEUE, callback);
 }
 

@@ -5,6 +5,11 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "nodes/crowd/waiting_borders.h"
 
 namespace vegetation_sim {
@@ -13,8 +18,10 @@ namespace vegetation_sim {
 /// those of all shards. One that does not come in time is not awaited again until it sends.
 class BorderInbox {
  public:
-  /// @param wait wall time for which a tick waits [s].
-  BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait);
+  /// @param wait wall time for which a tick waits [s]. @param is_from_shard whether a process sends
+  /// the messages of a shard; others are ignored.
+  BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait,
+              std::function<bool(std::uint32_t shard, const std::string& process)> is_from_shard);
 
   /// Returns the newest border of each shard that is earlier than the tick `now`, by rising shard.
   /// @param before stamp of the tick before, for whose borders it waits; 0: any.

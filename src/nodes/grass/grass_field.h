@@ -152,6 +152,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t state_bytes_{0}, largest_state_{0}, near_bytes_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
+  std::uint64_t late_treads_{0};         // of a shard, that came after their tick
+  std::uint64_t reported_late_{0};       // of them, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, near_publisher_, wrenches_publisher_,
       forces_publisher_, cover_publisher_, cover_part_publisher_, values_publisher_,

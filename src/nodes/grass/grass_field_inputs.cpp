@@ -56,6 +56,7 @@ void GrassField::onTread(const TreadEvent& message) {
     if (input.action == grass::TreadAction::STROKE) field_->checkStroke(input);
     GrassEvent event = treadEvent(input);
     event.header.stamp = effectOf(message.header.stamp, clock_);
+    if (isPart() && event.header.stamp.isZero() && !message.header.stamp.isZero()) ++late_treads_;
     inputs_.add(std::move(event));
   });
 }
@@ -67,11 +68,7 @@ void GrassField::followCoverParts(bool is_wanted) {
   cover_parts_ = ros::Subscriber();
   covers_->clear();
   if (!is_wanted) return;
-  const boost::function<void(const GrassCoverPart&)> guarded = [this](const GrassCoverPart& part) {
-    acceptInput("grass/cover/parts", [&] { onCoverPart(part); });
-  };
-  cover_parts_ =
-      subscribeWithoutDelay<GrassCoverPart>(handle_, "grass/cover/parts", MOST_SHARDS, guarded);
+  cover_parts_ = subscribeToShards("grass/cover/parts", MOST_SHARDS, &GrassField::onCoverPart);
 }
 
 void GrassField::onCoverPart(const GrassCoverPart& message) {

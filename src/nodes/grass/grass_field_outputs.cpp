@@ -169,6 +169,10 @@ void GrassField::addDiagnostics(Status& status) {
   const std::uint64_t uncut = tread_->cuts().state().no_memory;
   warnOfMore(status, uncut, reported_uncut_, "nodes left uncut by the memory cap");
   reported_uncut_ = uncut;
+  warnOfMore(status, late_treads_, reported_late_,
+             "treads came after their tick: shards may apply them at different ones");
+  reported_late_ = late_treads_;
+  if (isPart()) status.add("Treads after their tick", late_treads_);
   status.add("Sources", field_->sources().size());
   status.add("Sources without a position", sources_.missing().size());
   status.add("Cutters without a position", cutters_.missing().size());

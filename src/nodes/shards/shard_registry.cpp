@@ -40,17 +40,26 @@ void ShardRegistry::checkFit(const ShardNode& message) const {
     throw InvalidInput(who + ", as this node, " + own_.node + ", is; a shard has one node");
 }
 
-void ShardRegistry::hear(const ShardNode& message, SteadyTime now) {
+void ShardRegistry::hear(const ShardNode& message, const std::string& process, SteadyTime now) {
   if (message.node == own_.node) return;
   checkFit(message);
   const std::lock_guard<std::mutex> lock(mutex_);
   heard_[message.shard] = now;
+  processes_[message.shard] = process;
   if (!message.open) return;
   auto& peer = peers_[message.shard];
   if (peer && peer->node == message.node && peer->started == message.started) return;
   peer = std::make_shared<Peer>();  // a node that has started again owes no answers
   peer->node = message.node;
   peer->started = message.started;
+}
+
+void ShardRegistry::checkSender(std::uint32_t shard, const std::string& process) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = processes_.find(shard);
+  if (found != processes_.end() && found->second != process)
+    throw InvalidInput(describeShard(shard, own_.shards) + ": sender = " + process +
+                       "; allowed is that of the shard, " + found->second);
 }
 
 bool ShardRegistry::isEarlier(const ShardNode& message) const {

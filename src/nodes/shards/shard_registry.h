@@ -36,7 +36,11 @@ class ShardRegistry {
   /// Takes an announcement; the latest one of a shard counts.
   /// @throws InvalidInput that names the node if it does not fit: it has this shard, another number
   /// of shards, or another layout, terrain, rate or version of messages.
-  void hear(const ShardNode& message, SteadyTime now);
+  /// @param process name of the ROS node that has sent it, in which the nodelet may run.
+  void hear(const ShardNode& message, const std::string& process, SteadyTime now);
+  /// @throws InvalidInput that names both processes, unless the sender of a message of a shard is
+  /// the one that has announced the shard, or none has.
+  void checkSender(std::uint32_t shard, const std::string& process) const;
   /// @throws InvalidInput as hear() does.
   void checkFit(const ShardNode& message) const;
   /// Returns whether the node of an announcement started before this one.
@@ -53,6 +57,7 @@ class ShardRegistry {
   mutable std::mutex mutex_;
   std::map<std::uint32_t, std::shared_ptr<Peer>> peers_;
   std::map<std::uint32_t, SteadyTime> heard_;
+  std::map<std::uint32_t, std::string> processes_;
 };
 
 /// Returns "shard 1 of 4".

@@ -212,6 +212,7 @@ class CrowdShards(unittest.TestCase):
                          [time_of(first + i) for i in range(10)])
         self.run_ticks(60)
         self.assertEqual(sorted(self.people()), list(range(PEOPLE)))
+        self.check_equal(first)
 
     def test_7_the_clock_jumps_back(self):
         type(self).tick = FIRST - 300

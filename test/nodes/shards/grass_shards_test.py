@@ -137,6 +137,18 @@ class GrassShards(unittest.TestCase):
         self.assertGreater(sum(value > 0 for value in one.data), 100)
         self.assertEqual(len(self.cover._subscriber.impl.connections), 1)
 
+    def test_4_late_treads_are_counted(self):
+        def late(node):
+            return node.diagnostics()['Treads after their tick']
+        before = [late(node) for node in self.shards]
+        tread = step('walker_0', 15.0, 15.0)
+        tread.header = header(time_of(self.tick - 1, RATE))
+        self.tread.publish(tread)
+        for node in self.nodes:
+            node.settle()
+        self.assertIn(1.0, [late(node) - first for node, first in zip(self.shards, before)])
+        self.run_ticks(1)
+
     def test_4_requests_without_a_stamp_act_at_one_tick(self):
         expected = self.next_tick(6)
         self.ask(self.shards[1], 'tread', points=points((0.5, -19.0), (0.5, 19.0)))

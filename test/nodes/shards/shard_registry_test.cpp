@@ -25,50 +25,62 @@ ShardNode announced(std::uint32_t shard, std::uint32_t shards, const std::string
   return out;
 }
 
+const std::string PROCESS = "/manager";
 constexpr ShardRegistry::SteadyTime BEGIN{};
 constexpr std::chrono::seconds SECOND{1};
 
 TEST(ShardRegistry, KnowsTheLatestNodeOfEachShard) {
   ShardRegistry registry(announced(1, 3, "/own"));
   EXPECT_EQ(registry.describeMissing(), "0, 2");
-  registry.hear(announced(1, 3, "/own"), BEGIN);
+  registry.hear(announced(1, 3, "/own"), PROCESS, BEGIN);
   ShardNode starting = announced(2, 3, "/first");
   starting.open = false;
-  registry.hear(starting, BEGIN);
+  registry.hear(starting, PROCESS, BEGIN);
   EXPECT_EQ(registry.describeMissing(), "0, 2");
-  registry.hear(announced(2, 3, "/first"), BEGIN);
+  registry.hear(announced(2, 3, "/first"), PROCESS, BEGIN);
   const auto first = registry.find(2);
   first->overdue = 1;
   EXPECT_EQ(first->node, "/first");
-  registry.hear(announced(2, 3, "/first"), BEGIN);
+  registry.hear(announced(2, 3, "/first"), PROCESS, BEGIN);
   EXPECT_EQ(registry.find(2)->overdue, 1);
   ShardNode again = announced(2, 3, "/first");
   again.started = ros::Time(200.0);
-  registry.hear(again, BEGIN);
+  registry.hear(again, PROCESS, BEGIN);
   EXPECT_EQ(registry.find(2)->overdue, 0);
-  registry.hear(announced(2, 3, "/second"), BEGIN);
+  registry.hear(announced(2, 3, "/second"), PROCESS, BEGIN);
   EXPECT_EQ(registry.find(2)->node, "/second");
   EXPECT_EQ(registry.find(2)->overdue, 0);
   EXPECT_EQ(registry.describeMissing(), "0");
   EXPECT_EQ(errorOf([&] { registry.find(0); }), "shard 0 of 3 is animated by no node");
 }
 
+TEST(ShardRegistry, RefusesMessagesOfOtherProcesses) {
+  ShardRegistry registry(announced(1, 3, "/own"));
+  registry.checkSender(2, "/anybody");  // before the shard is known
+  registry.hear(announced(2, 3, "/second"), PROCESS, BEGIN);
+  registry.checkSender(2, PROCESS);
+  EXPECT_EQ(errorOf([&] { registry.checkSender(2, "/second"); }),
+            "shard 2 of 3: sender = /second; allowed is that of the shard, /manager");
+  registry.hear(announced(2, 3, "/second"), "/second", BEGIN);
+  registry.checkSender(2, "/second");
+}
+
 TEST(ShardRegistry, NamesSilentNodes) {
   ShardRegistry registry(announced(1, 3, "/own"));
-  registry.hear(announced(0, 3, "/first"), BEGIN);
-  registry.hear(announced(2, 3, "/second"), BEGIN);
+  registry.hear(announced(0, 3, "/first"), PROCESS, BEGIN);
+  registry.hear(announced(2, 3, "/second"), PROCESS, BEGIN);
   EXPECT_EQ(registry.describeSilent(BEGIN + 3 * SECOND), "");
-  registry.hear(announced(2, 3, "/second"), BEGIN + 2 * SECOND);
+  registry.hear(announced(2, 3, "/second"), PROCESS, BEGIN + 2 * SECOND);
   EXPECT_EQ(registry.describeSilent(BEGIN + 4 * SECOND), "0 (/first)");
   EXPECT_EQ(registry.describeSilent(BEGIN + 6 * SECOND), "0 (/first), 2 (/second)");
-  registry.hear(announced(0, 3, "/first"), BEGIN + 6 * SECOND);
+  registry.hear(announced(0, 3, "/first"), PROCESS, BEGIN + 6 * SECOND);
   EXPECT_EQ(registry.describeSilent(BEGIN + 6 * SECOND), "2 (/second)");
 }
 
 TEST(ShardRegistry, NamesNodesThatDoNotFit) {
   ShardRegistry registry(announced(1, 3, "/own"));
   const auto refusal = [&](const ShardNode& other) {
-    return errorOf([&] { registry.hear(other, BEGIN); });
+    return errorOf([&] { registry.hear(other, PROCESS, BEGIN); });
   };
   EXPECT_EQ(refusal(announced(1, 3, "/other")),
             "/other is shard 1 of 3, as this node, /own, is; a shard has one node");

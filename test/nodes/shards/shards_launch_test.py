@@ -6,6 +6,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from vegetation_sim.msg import ForestState, GrassState, ShardNode
 from vegetation_sim.srv import FindTrees, GetTree
 
@@ -45,6 +46,12 @@ class ShardsLaunch(unittest.TestCase):
                                'shard %d to find the others' % shard)
             hashes.add(tuple(a.skeleton_hash for a in answers))
         self.assertEqual(len(hashes), 1)
+
+    def test_the_shards_of_another_part_are_no_rivals(self):
+        reports = Log('/diagnostics', DiagnosticArray)
+        reports.wait(lambda all: {s.name.split(':')[0] for m in all for s in m.status} >= {
+            'crowd_%d' % i for i in range(COUNT)}, 'reports of the crowd')
+        self.assertFalse([s.message for m in reports.messages for s in m.status if 'publishers of' in s.message])
 
 
 if __name__ == '__main__':

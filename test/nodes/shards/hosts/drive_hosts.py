@@ -54,10 +54,16 @@ class CutLink:
         subprocess.check_call(['ip', 'link', 'set', 'link_2', 'up'])
         self._asking.join()
 
+    def is_told(self, shards):
+        """Returns whether all other shards have named shard 1, and a request to it was refused."""
+        named = all(any(words.startswith('%s_%d: ' % (kind, i)) and '1 (/%s_1)' % kind in words for words in self.said)
+                    for kind in ('forest', 'grass') for i in range(shards) if i != 1)
+        return named and any(words.startswith('shard 1 of %d' % shards) for words in self.said)
 
-def pass_partition(world, requests):
-    """Returns the number of ticks without the link, and the time until the states of all of them have
-    come after it is up again [s]."""
+
+def pass_partition(world, requests, shards):
+    """Returns the number of ticks without the link, the time until the states of all of them have come
+    after it is up again [s], and whether the other shards have reported it."""
     for _ in range(CALM):  # treads and requests with stamps ahead are done
         world.show_frames()
         world.run_tick()
@@ -81,7 +87,7 @@ def pass_partition(world, requests):
         world.run_tick()
     for words in sorted(link.said):
         print('while the link is down: ' + words)
-    return ticks, seconds
+    return ticks, seconds, link.is_told(shards)
 
 
 def main():
@@ -108,9 +114,12 @@ def main():
     seconds = time.monotonic() - begin
     bytes_ = {kind: [states.bytes * RATE / (ticks + 5.0) for states in pair] for kind, pair in world.states.items()}
     last = world.stamp()
-    print('%d ticks without the link; %.1f s after it is up all states have come' % pass_partition(world, requests))
+    *partition, told = pass_partition(world, requests, shards)
+    print('%d ticks without the link; %.1f s after it is up all states have come' % tuple(partition))
     print('%-10s %8s %8s %10s %14s %14s' % ('state', 'ticks', 'equal', 'hashes', 'shards [B/s]', 'one node [B/s]'))
-    good = True
+    good = told
+    if not told:
+        print('not all shards have reported the one without a link')
     for kind in world.states:
         both, equal, hashes = world.compare(kind)
         good = good and len(both) >= ticks + CALM + AFTER and equal == both
