@@ -11,8 +11,8 @@ it.
 
 The frames follow REP 105: odom -> base_link is where the robot believes that it is, from wheels
 that it takes for a little larger and closer together than they are, so it drifts, and takes the
-ground for flat. The true pose is on the topic base_pose_ground_truth; ground_truth_frame.py makes the frame world of it, in which
-odom is seen to move.
+ground for flat. The true pose is on the topic base_pose_ground_truth; ground_truth_frame.py makes
+the frame world of it, in which odom is seen to move.
 """
 import math
 import xml.etree.ElementTree
