@@ -102,6 +102,7 @@ void archiveFields(Archive& a, CrowdBorder& border) {
       [&a](std::uint32_t& shard) { a.integer("shard", shard); },
       [&a](std::uint32_t, Nanoseconds& stamp) { a.stamp("stamp heard", stamp); });
   a.integer("run", border.run);
+  a.stamp("begun", border.begun);
   a.flag("starts", border.starts);
   a.flag("lists", border.lists);
   a.list("ids", border.ids, 2 * MOST_WALKERS, 4, [&a](std::uint32_t& id) { a.integer("id", id); });
@@ -136,8 +137,11 @@ void CrowdShard::archive(Archive& a) {
   archivePeople(a, left_);
   a.stamp("stamp of the last tick", last_);
   a.integer("run", run_);
+  Nanoseconds begun = begun_.value_or(0);
+  a.stamp("begun", begun);
   a.flag("starts", starts_);
   if (!a.reads()) return;
+  begun_ = begun;
   fresh_ = false;
   start_.clear();
   waiting_.clear();

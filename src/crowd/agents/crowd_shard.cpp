@@ -21,7 +21,12 @@ CrowdBorder CrowdShard::begin(Start start) {
   start_ = crowd_->takeOutside(owners_);
   crowd_->setOthers({});
   fresh_ = start == Start::FRESH;
+  if (fresh_) {
+    begun_.reset();
+    known_.clear();
+  }
   starts_ = false;
+  start_stamp_ = 0;
   std::vector<Walker> others = start_;
   CrowdBorder out = endTick();
   start_ = std::move(others);
@@ -31,6 +36,8 @@ CrowdBorder CrowdShard::begin(Start start) {
 CrowdBorder CrowdShard::endTick() {
   CrowdBorder out;
   out.stamp = last_ = crowd_->snapshot().stamp;
+  if (!begun_ && last_ > 0) begun_ = last_;
+  out.begun = begun_.value_or(0);
   const double margin = crowd_->snapshot().settings.sensor_range + 2.0 * MOST_RADIUS;
   for (const Walker& walker : crowd_->walkers())
     if (owners_.isNearOthers(walker.position, margin)) out.near.push_back(walker);
@@ -51,6 +58,19 @@ CrowdBorder CrowdShard::endTick() {
   return out;
 }
 
+void CrowdShard::startBesideOthers() {
+  if (fresh_ && !starts_) removeAll();
+}
+
+void CrowdShard::removeAll() {
+  starts_ = true;
+  start_stamp_ = 0;
+  handed_.clear();
+  left_.clear();
+  while (!crowd_->walkers().empty()) crowd_->remove(crowd_->walkers().back().id);
+  start_.clear();
+}
+
 void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
   const Shard& own = owners_.shard();
   if (shard >= own.count || shard == own.index)
@@ -58,18 +78,10 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
                        std::to_string(own.count) + " than this one, " + std::to_string(own.index));
   const auto last = borders_.find(shard);
   if (last != borders_.end() && border.stamp <= last->second.stamp) return;
-  if (fresh_ && !starts_ && border.stamp > 0) {
-    starts_ = true;
-    while (!crowd_->walkers().empty()) crowd_->remove(crowd_->walkers().back().id);
-    start_.clear();
-  }
+  const bool is_younger = fresh_ || border.begun < begun_.value_or(0);
+  if (border.stamp > 0 && is_younger && known_.insert(shard).second && !starts_) removeAll();
   if (isStarting()) run_ = std::max(run_, border.run);
   if (border.run < run_) return;
-  for (const CrowdBorder::Handed& handed : border.handed) {
-    const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
-    if (handed.to == own.index && is_new && !crowd_->find(handed.walker.id))
-      crowd_->takeIn(handed.walker);
-  }
   const auto found = border.heard.find(own.index);
   if (found != border.heard.end())
     handed_.erase(std::remove_if(handed_.begin(), handed_.end(),
@@ -77,21 +89,28 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
                                    return handed.to == shard && handed.stamp <= found->second;
                                  }),
                   handed_.end());
+  for (const CrowdBorder::Handed& handed : border.handed) {
+    const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
+    if (handed.to == own.index && is_new && !has(handed.walker.id)) crowd_->takeIn(handed.walker);
+  }
   borders_[shard] = std::move(border);
 }
 
 std::optional<std::size_t> CrowdShard::spawnMissing(const std::vector<Spawn>& spawns) {
   if (!starts_ || fresh_) return {};
+  if (start_stamp_ == 0) start_stamp_ = last_;
+  const bool is_patient = secondsBetween(start_stamp_, last_) < LONGEST_START;
   std::set<std::uint32_t> elsewhere;
   bool knows_all = true;
   for (std::uint32_t i = 0; i < owners_.shard().count; ++i) {
     if (i == owners_.shard().index) continue;
     const auto found = borders_.find(i);
-    const bool runs =
-        found != borders_.end() && found->second.stamp >= last_ && !found->second.starts;
+    const bool is_heard = found != borders_.end() && found->second.stamp >= last_;
+    if (!is_heard && is_patient) return {};
+    const bool runs = is_heard && !found->second.starts;
     knows_all = knows_all && runs;
-    if (!runs) continue;
-    if (!found->second.lists) return {};
+    if (runs && !found->second.lists) return {};
+    if (found == borders_.end()) continue;
     elsewhere.insert(found->second.ids.begin(), found->second.ids.end());
   }
   starts_ = false;
@@ -151,11 +170,14 @@ bool CrowdShard::removeWaiting(std::uint32_t id) {
   return true;
 }
 
+bool CrowdShard::has(std::uint32_t id) const {
+  const auto is_handed = [id](const auto& handed) { return handed.walker.id == id; };
+  return crowd_->find(id) || std::any_of(handed_.begin(), handed_.end(), is_handed);
+}
+
 bool CrowdShard::mayHave(std::uint32_t id) const {
   const auto is_it = [id](const Walker& walker) { return walker.id == id; };
-  const auto is_handed = [id](const auto& handed) { return handed.walker.id == id; };
-  return crowd_->find(id) || std::any_of(handed_.begin(), handed_.end(), is_handed) ||
-         std::any_of(borders_.begin(), borders_.end(), [&](const auto& entry) {
+  return has(id) || std::any_of(borders_.begin(), borders_.end(), [&](const auto& entry) {
            const std::vector<Walker>& near = entry.second.near;
            return std::any_of(near.begin(), near.end(), is_it);
          });

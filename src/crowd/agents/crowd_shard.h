@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct CrowdBorder {
   std::vector<Handed> handed;  ///< until their new shard has heard of them
   std::map<std::uint32_t, Nanoseconds> heard;  ///< stamps of the newest borders of other shards
   std::uint32_t run{0};  ///< how often the crowd was reset; of an earlier run it counts no longer
+  Nanoseconds begun{0};  ///< stamp of the first tick since the shard started; 0: unknown, long ago
   bool starts{false};    ///< the shard has started while others run, and asks for `ids`
   bool lists{false};     ///< `ids` are given
   std::vector<std::uint32_t> ids;  ///< of the shard's people, and of those in `handed`
@@ -37,6 +39,8 @@ struct CrowdBorder {
 /// and starts are those of each shard. People who come to a shard that is silent stand and wait.
 class CrowdShard {
  public:
+  /// Time for which a shard that has started waits for the lists of the others [s].
+  static constexpr double LONGEST_START = 2.0;
   /// How the crowd has come to be: at the start of the node or of the clock, when others may run
   /// already, or by a reset, which is one in all shards.
   enum class Start { FRESH, RESET };
@@ -58,13 +62,16 @@ class CrowdShard {
   /// after each tick.
   CrowdBorder endTick();
   /// Takes the border of another shard, and in those who come from there. One that is not newer
-  /// than the last, or from before a reset, is ignored. If the other shard has run before this one
-  /// was started, all people here go, until spawnMissing(). @throws InvalidInput for another shard
-  /// than there are.
+  /// than the last, or from before a reset, is ignored. If this shard hears the other for the first
+  /// time and has started later, it removes all people, until spawnMissing(), since the other may
+  /// have them. @throws InvalidInput for another shard than there are.
   void hear(std::uint32_t shard, CrowdBorder border);
+  /// Does the same before the first tick, if another shard is known to have run before.
+  void startBesideOthers();
   /// If the shard has started while others run, and these have listed their people: spawns those
-  /// whom none of them has, and returns their number. If one of them is silent or starts too, only
-  /// those whose start is here. To be called before beginTick(). @param spawns people by their ids.
+  /// whom none of them has, and returns their number. If one of them starts too, or has been silent
+  /// for LONGEST_START, only those whose start is here. To be called before beginTick().
+  /// @param spawns people by their ids.
   std::optional<std::size_t> spawnMissing(const std::vector<Spawn>& spawns);
   /// Shows people those of others. To be called before Crowd::advance().
   void beginTick();
@@ -83,6 +90,9 @@ class CrowdShard {
   void archive(Archive& a);
 
  private:
+  void removeAll();
+  /// Whether the person is here or on the way to another shard.
+  bool has(std::uint32_t id) const;
   bool isStarting() const { return fresh_ || starts_; }
   bool waits(const CrowdBorder::Handed& handed) const;
 
@@ -95,8 +105,11 @@ class CrowdShard {
   std::vector<Walker> waiting_;
   Nanoseconds last_{0};  // stamp of the last tick
   std::uint32_t run_{0};
-  bool fresh_{false};   // no tick has run since the start
-  bool starts_{false};  // until spawnMissing()
+  bool fresh_{false};                 // no tick has run since the start
+  bool starts_{false};                // until spawnMissing()
+  std::optional<Nanoseconds> begun_;  // stamp of the first tick
+  std::set<std::uint32_t> known_;     // shards heard since the start
+  Nanoseconds start_stamp_{0};        // of the tick since which it waits for lists; 0: none yet
 };
 
 /// A border as bytes, and back. @throws InvalidInput for bytes that are no border.

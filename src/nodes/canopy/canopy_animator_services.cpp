@@ -69,13 +69,13 @@ bool CanopyAnimator::onCut(CutPlants::Request& request, CutPlants::Response& res
   return answer(response, [&]() -> std::string {
     refuseInReplay();
     CanopyEvent event = cutEvent(areaOf(request.cut, poseOf(request.header.frame_id)));
-    event.header.stamp = effectOf(request.header.stamp, clock_);
-    const bool is_next = event.header.stamp.isZero();
+    const ros::Time effect = event.header.stamp = effectOf(request.header.stamp, clock_);
+    const bool is_next = effect.isZero();
     response.plants = countHigher(event);
     if (event.cut_plants.empty() || (is_next && response.plants == 0)) return "no plant is cut";
     checkRoomToWait(inputs_, event.cut_plants.size());
     enqueue(std::move(event));
-    return is_next ? "takes effect at the next tick" : "takes effect at its stamp";
+    return describeEffect(effect);
   });
 }
 

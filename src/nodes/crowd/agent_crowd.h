@@ -119,6 +119,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void onPart(const CrowdPart& message);
   using Parts = std::map<std::uint32_t, CrowdPart>;  // by shard
   void addPart(const CrowdPart& part);
+  void addLatePart(const CrowdPart& part);
   bool hasAll(Nanoseconds stamp, const Parts& parts) const;
   void publishParts();
   void publishJoined(const AgentStates& all);
@@ -181,8 +182,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint64_t heard_layout_{0}, heard_cover_{0};  // of the newest ones
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
-  TierHysteresis held_frames_;  // 1: has one
-  std::size_t frames_sent_{0};  // at the last round
+  TierHysteresis held_frames_;   // 1: has one
+  std::size_t frames_sent_{0};   // at the last round
+  Nanoseconds frames_stamp_{0};  // of the last round
   struct Trodden {
     crowd::Point place{};
     bool stood[2]{true, true};

@@ -185,6 +185,8 @@ std::vector<TierChoice> AgentCrowd::chooseFrames(Nanoseconds stamp) {
 
 void AgentCrowd::sendFrames() {
   const Nanoseconds stamp = crowd_.snapshot().stamp;
+  if (stamp == frames_stamp_) return;  // tf refuses a second frame of the same stamp
+  frames_stamp_ = stamp;
   std::vector<geometry_msgs::TransformStamped> frames;
   const std::vector<TierChoice> choices = chooseFrames(stamp);
   for (std::size_t i = 0; i < choices.size(); ++i) {

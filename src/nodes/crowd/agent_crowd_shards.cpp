@@ -152,6 +152,7 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
   if (!inbox_) return;
   const crowd::CrowdSnapshot& state = crowd_.snapshot();
   const std::vector<CrowdBorder> taken = inbox_->take(state.begun ? state.stamp : 0, stamp);
+  if (inbox_->isAnyAhead()) shard_->startBesideOthers();
   for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
     Hash hash;
     hash.add(bytesOf(*border));
@@ -205,10 +206,8 @@ std::pair<crowd::CrowdBorder, AgentCrowd::Walked> AgentCrowd::readBorder(std::st
 void AgentCrowd::beginTickOfShard() {
   if (!shard_) return;
   if (const auto spawned = shard_->spawnMissing(options_.scene.crowd.spawns))
-    ROS_WARN(
-        "%s: started without its people while other shards run; %zu that none of them has "
-        "begin anew",
-        name_.c_str(), *spawned);
+    ROS_INFO("%s: other shards run already; %zu people whom none of them has begin at their starts",
+             name_.c_str(), *spawned);
   shard_->beginTick();
 }
 
@@ -254,8 +253,10 @@ void AgentCrowd::onPart(const CrowdPart& message) {
     checkFrame(message.people.header.frame_id, options_.frame_id);
     check(message.people.agents);
     check(message.waiting);
-    if (stamp <= joined_) return;  // its tick was published without it
-    addPart(message);
+    if (stamp <= joined_)
+      addLatePart(message);
+    else
+      addPart(message);
   });
 }
 
@@ -269,6 +270,14 @@ void AgentCrowd::addPart(const CrowdPart& part) {
   while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
   if (!clock_.hasBegun())
     while (parts_.size() > MOST_PARTS) parts_.erase(parts_.begin());
+}
+
+// The tick of a part was published without it. The next ones wait for its shard again.
+void AgentCrowd::addLatePart(const CrowdPart& part) {
+  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
+  if (stamp <= heard_[part.shard]) return;
+  heard_[part.shard] = stamp;
+  last_parts_[part.shard] = part;
 }
 
 // Each shard sends its parts in order. Only ticks of this shard decide that another is silent.

@@ -4,6 +4,7 @@
 
 #include <ros/time.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "ros/services/subscriptions.h"
@@ -12,6 +13,7 @@ namespace vegetation_sim {
 namespace {
 
 constexpr double BORDER_POLL = 5e-4;  // [s] between two looks
+constexpr double FIRST_WAIT = 0.5;    // of the first tick, until shards that run connect [s]
 constexpr unsigned BORDER_QUEUE = 1000;
 
 }  // namespace
@@ -31,7 +33,8 @@ BorderInbox::BorderInbox(
 }
 
 std::vector<CrowdBorder> BorderInbox::take(Nanoseconds before, Nanoseconds now) {
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(wait_);
+  const double wait = before == 0 ? std::max(wait_, FIRST_WAIT) : wait_;
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(wait);
   borders_.beginTick(before, now);
   queue_.callAvailable();
   while (!borders_.hasAll() && ros::WallTime::now() < deadline) {

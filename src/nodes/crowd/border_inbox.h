@@ -18,14 +18,16 @@ namespace vegetation_sim {
 /// those of all shards. One that does not come in time is not awaited again until it sends.
 class BorderInbox {
  public:
-  /// @param wait wall time for which a tick waits [s]. @param is_from_shard whether a process sends
-  /// the messages of a shard; others are ignored.
+  /// @param wait wall time for which a tick waits [s]; the first waits longer. @param
+  /// is_from_shard whether a process sends the messages of a shard; others are ignored.
   BorderInbox(ros::NodeHandle handle, const Shard& shard, double wait,
               std::function<bool(std::uint32_t shard, const std::string& process)> is_from_shard);
 
   /// Returns the newest border of each shard that is earlier than the tick `now`, by rising shard.
   /// @param before stamp of the tick before, for whose borders it waits; 0: any.
   std::vector<CrowdBorder> take(Nanoseconds before, Nanoseconds now);
+  /// Whether a shard has sent the border after a later tick: it has run before this one.
+  bool isAnyAhead() const { return borders_.isAnyAhead(); }
   /// Forgets the borders from before a jump back of the clock.
   void jumpBack() { borders_.jumpBack(); }
   /// Number of borders that have not come in time.

@@ -83,6 +83,12 @@ bool WaitingBorders::hasAll() const {
                      [this](std::uint32_t shard) { return hasCome(shard); });
 }
 
+bool WaitingBorders::isAnyAhead() const {
+  return std::any_of(sent_.begin(), sent_.end(), [this](const auto& entry) {
+    return entry.second.newest && *entry.second.newest > now_;
+  });
+}
+
 std::size_t WaitingBorders::dropLate() {
   std::size_t out = 0;
   for (auto shard = expected_.begin(); shard != expected_.end();) {

@@ -36,6 +36,8 @@ class WaitingBorders {
   bool hasAll() const;
   /// Expects the others no longer until they send again. Returns their number.
   std::size_t dropLate();
+  /// Whether a shard has sent the border after a later tick: it has run before this one.
+  bool isAnyAhead() const;
   /// Returns the newest border of each shard that is earlier than the tick, by rising shard.
   std::vector<CrowdBorder> take();
   /// Expects the borders from after a jump back of the clock instead.

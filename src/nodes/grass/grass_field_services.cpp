@@ -126,7 +126,7 @@ bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response)
     queuePath(path, law, stamp);
     for (std::size_t i = 1; i < path.size(); ++i)
       response.length += flatLength(path[i - 1], path[i]);
-    return "takes effect at the next tick";
+    return describeEffect(stamp);
   });
 }
 
@@ -200,11 +200,11 @@ bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response)
     field_->checkCut(area);
     GrassEvent event;
     event.kind = GrassEvent::CUT;
-    event.header.stamp = effectOf(request.header.stamp, clock_);
+    const ros::Time effect = event.header.stamp = effectOf(request.header.stamp, clock_);
     event.cut = toMsg(area);
     checkRoomToWait(inputs_, event.cut);
     enqueue(std::move(event));
-    return "takes effect at the next tick";
+    return describeEffect(effect);
   });
 }
 

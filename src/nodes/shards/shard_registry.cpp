@@ -19,20 +19,21 @@ std::string describeShard(std::uint32_t shard, std::uint32_t count) {
 
 void ShardRegistry::checkFit(const ShardNode& message) const {
   const std::string who = message.node + " is " + describeShard(message.shard, message.shards);
-  if (message.shards != own_.shards || message.shard >= own_.shards)
-    throw InvalidInput(who + "; allowed is a shard from 0 to " + std::to_string(own_.shards - 1) +
-                       " of " + std::to_string(own_.shards));
   const auto refuse = [&](const char* what, const std::string& value, const std::string& allowed) {
     throw InvalidInput(who + " with " + what + " = " + value + "; allowed is that of this node, " +
                        own_.node + ", " + allowed);
   };
+  if (message.shards != own_.shards)
+    refuse("shard/count", std::to_string(message.shards), std::to_string(own_.shards));
+  if (message.shard >= own_.shards)
+    throw InvalidInput(who + "; allowed is an index from 0 to " + std::to_string(own_.shards - 1));
   if (message.messages != own_.messages)
     refuse("the version of messages", message.messages, own_.messages);
   if (message.terrain_hash != own_.terrain_hash)
-    refuse("the hash of the terrain", std::to_string(message.terrain_hash),
+    refuse("the hash of the scenario's terrain", std::to_string(message.terrain_hash),
            std::to_string(own_.terrain_hash));
   if (message.layout_hash != own_.layout_hash)
-    refuse("the hash of the layout", std::to_string(message.layout_hash),
+    refuse("the hash of the scenario's layout", std::to_string(message.layout_hash),
            std::to_string(own_.layout_hash));
   if (message.rate != own_.rate)
     refuse("state_rate", std::to_string(message.rate), std::to_string(own_.rate));

@@ -5,6 +5,7 @@
 #include <tf2/exceptions.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <vector>
 
 #include "vegetation_sim/core/config/faults.h"
@@ -63,6 +64,13 @@ ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {
     throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
                        std::to_string(FARTHEST_AHEAD) + " s");
   return ahead > 0.0 ? stamp : ros::Time();
+}
+
+std::string describeEffect(const ros::Time& effect) {
+  if (effect.isZero()) return "takes effect at the next tick";
+  char out[64];
+  std::snprintf(out, sizeof out, "takes effect at %.3f s", effect.toSec());
+  return out;
 }
 
 }  // namespace vegetation_sim

@@ -230,6 +230,7 @@ struct TwoShards {
     shards[i]->begin(CrowdShard::Start::RESET);
   }
   void hear(std::uint32_t i) {
+    if (are_deaf) return;
     const CrowdBorder border = readBorder(archiveBorder(borders[1 - i]));
     if (shards[i]->isResetBy(border)) reset(i, border.run);
     shards[i]->hear(1 - i, border);
@@ -255,6 +256,7 @@ struct TwoShards {
   }
 
   std::vector<std::uint32_t> ids;
+  bool are_deaf{false};  // no borders come
   std::uint64_t hash{0};
   std::vector<Spawn> starts;
   std::unique_ptr<Crowd> crowds[2];
@@ -326,6 +328,40 @@ TEST(CrowdShard, AShardThatStartsAnewSpawnsTheMissing) {
     }
     EXPECT_GT(two.spawned, 0u);
     EXPECT_LE(two.spawned, lost);
+  }
+}
+
+// The links of a shard that is started again come up later than its first tick.
+TEST(CrowdShard, AShardThatHearsOthersLateSpawnsTheMissing) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  for (const int deaf : {1, 5, 40, 150}) {
+    TwoShards two(whole);
+    Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+    for (int tick = 0; tick < 900; ++tick, stamp += fromSeconds(PERIOD)) {
+      if (tick == 600) two.start(1, whole);
+      two.are_deaf = tick >= 600 && tick < 600 + deaf;
+      two.advance(stamp);
+      const bool is_between = tick >= 600 && tick <= 604 + deaf;
+      ASSERT_TRUE(is_between || two.ids == upTo(150)) << tick << " deaf " << deaf;
+    }
+  }
+}
+
+// One that knows of others before their borders waits for them without people.
+TEST(CrowdShard, AShardThatStartsBesideOthersHasNobodyAtFirst) {
+  Crowd whole = wanderers(150, 24.0, 7);
+  TwoShards two(whole);
+  Nanoseconds stamp = NANOSECONDS_PER_SECOND;
+  for (int tick = 0; tick < 900; ++tick, stamp += fromSeconds(PERIOD)) {
+    const bool is_between = tick >= 600 && tick <= 624;
+    two.are_deaf = is_between && tick < 620;
+    if (tick == 600) {
+      two.start(1, whole);
+      two.shards[1]->startBesideOthers();
+    }
+    two.advance(stamp);
+    ASSERT_TRUE(!two.are_deaf || two.crowds[1]->walkers().empty()) << tick;
+    ASSERT_TRUE(is_between || two.ids == upTo(150)) << tick;
   }
 }
 

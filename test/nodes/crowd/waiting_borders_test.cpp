@@ -67,6 +67,15 @@ TEST(WaitingBorders, TheFirstMessageMayBeOfTheTickThatBegins) {
   EXPECT_EQ(ticksOf(takeAt(borders, 63 * TICK)), std::vector<int>{62});
 }
 
+TEST(WaitingBorders, AShardThatIsAheadHasRunBefore) {
+  WaitingBorders borders(FIRST_OF_TWO);
+  borders.add(borderAfter(62));
+  takeAt(borders, 62 * TICK);
+  EXPECT_FALSE(borders.isAnyAhead());
+  takeAt(borders, 61 * TICK);
+  EXPECT_TRUE(borders.isAnyAhead());
+}
+
 TEST(WaitingBorders, ABorderIsTakenOnce) {
   WaitingBorders borders(FIRST_OF_TWO);
   borders.add(borderAfter(7));

@@ -175,9 +175,9 @@ class ShardDeaths(unittest.TestCase):
             first = '/%s_[01] is shard [01] of 2' % kind
             other = os.path.join(os.path.dirname(FOLDER), 'scenarios', 'clearing.yaml')
             for name, index, count, more, words in (
-                    ('wrong_count', 2, 3, {}, '; allowed is a shard from 0 to 2 of 3'),
+                    ('wrong_count', 2, 3, {}, r' with shard/count = 2; allowed is that of this node, \S+, 3'),
                     ('twice', 1, 2, {}, 'is shard 1 of 2, as this node, /twice, is; a shard has one node'),
-                    ('wrong_scene', 1, 2, dict(scenario=other), r' with the hash of the (layout|terrain) = \d+'),
+                    ('wrong_scene', 1, 2, dict(scenario=other), r" with the hash of the scenario's (layout|terrain) = \d+"),
                     ('wrong_rate', 1, 2, dict(state_rate=20), ' with state_rate = 30; allowed is that of this node, '
                                                               '/wrong_rate, 20')):
                 refusal = self.refusal(kind, name, index, count, **more)

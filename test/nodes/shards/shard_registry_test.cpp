@@ -85,9 +85,9 @@ TEST(ShardRegistry, NamesNodesThatDoNotFit) {
   EXPECT_EQ(refusal(announced(1, 3, "/other")),
             "/other is shard 1 of 3, as this node, /own, is; a shard has one node");
   EXPECT_EQ(refusal(announced(0, 2, "/other")),
-            "/other is shard 0 of 2; allowed is a shard from 0 to 2 of 3");
+            "/other is shard 0 of 2 with shard/count = 2; allowed is that of this node, /own, 3");
   EXPECT_EQ(refusal(announced(3, 3, "/other")),
-            "/other is shard 3 of 3; allowed is a shard from 0 to 2 of 3");
+            "/other is shard 3 of 3; allowed is an index from 0 to 2");
   const auto changed = [](auto member, auto value) {
     ShardNode out = announced(0, 3, "/other");
     out.*member = value;
@@ -98,9 +98,9 @@ TEST(ShardRegistry, NamesNodesThatDoNotFit) {
   EXPECT_EQ(refusal(changed(&ShardNode::messages, "1a 3c")),
             other + "the version of messages = 1a 3c" + allowed + "1a 2b");
   EXPECT_EQ(refusal(changed(&ShardNode::terrain_hash, 9u)),
-            other + "the hash of the terrain = 9" + allowed + "8");
+            other + "the hash of the scenario's terrain = 9" + allowed + "8");
   EXPECT_EQ(refusal(changed(&ShardNode::layout_hash, 9u)),
-            other + "the hash of the layout = 9" + allowed + "7");
+            other + "the hash of the scenario's layout = 9" + allowed + "7");
   EXPECT_EQ(refusal(changed(&ShardNode::rate, 20u)), other + "state_rate = 20" + allowed + "30");
   EXPECT_EQ(registry.describeMissing(), "0, 2");
   // Of two nodes the one that has started later does not run.

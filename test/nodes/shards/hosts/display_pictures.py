@@ -37,7 +37,7 @@ class DisplayPictures:
         def is_whole():
             try:
                 out.append(np.asarray(Image.open(path).convert('RGB'), dtype=np.int16))
-            except OSError:  # not there yet, or a part of it
+            except (OSError, SyntaxError):  # not there yet, or a part of it
                 return False
             return True
 

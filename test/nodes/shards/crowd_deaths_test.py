@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# Copyright 2026 vegetation_sim developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""After kill -9 of a shard of a crowd that has no checkpoint, roslaunch starts it again. Each person is
+then in one shard: those whom it had begin anew, the others go on."""
+import math
+import os
+import signal
+import unittest
+
+import rospy
+import rostest
+from vegetation_sim.msg import AgentStates
+from vegetation_sim.srv import FindAgents
+
+from waiting import DEADLINE, wait_for
+from watched_node import Log, slave
+
+PEOPLE, SHARDS = 60, 3
+STEADY = 60    # ticks in a row that have all people
+FASTEST = 2.0  # [m/s] that a person walks
+LONGEST = 2.0  # [m] that a person is moved by encounters besides
+
+
+def people_of(shard):
+    """Returns the ids of those whom a shard has, or [] if it does not run."""
+    try:
+        name = '/crowd_%d/owned/find_agents' % shard
+        return list(rospy.ServiceProxy(name, FindAgents)(all=True).ids)
+    except (rospy.ServiceException, rospy.ROSException):
+        return []
+
+
+def people_of_all():
+    """Who crosses a border meanwhile may be missing or in two shards."""
+    return sorted(sum([people_of(shard) for shard in range(SHARDS)], []))
+
+
+def distance(one, other):
+    a, b = one.pose.position, other.pose.position
+    return math.hypot(a.x - b.x, a.y - b.y)
+
+
+def steady(messages, stamp):
+    """Returns the first of the last STEADY messages if they are later than stamp and have all people."""
+    last = messages[-STEADY:]
+    are_all = all([agent.id for agent in message.agents] == list(range(PEOPLE)) for message in last)
+    return are_all and last[0].header.stamp > stamp and last[0]
+
+
+class CrowdDeaths(unittest.TestCase):
+    def test_each_person_is_in_one_shard_after_a_death(self):
+        agents = Log('/agents', AgentStates)
+        for shard in range(SHARDS):
+            rospy.wait_for_service('/crowd_%d/owned/find_agents' % shard, DEADLINE)
+        everybody = list(range(PEOPLE))
+        wait_for(lambda: people_of_all() == everybody, 'people at first')
+        for shard in (1, 0, 2, 1):
+            rospy.sleep(3.0)  # in which people cross borders
+            before = agents.messages[-1]
+            lost = people_of(shard)
+            self.assertGreater(len(lost), 5)
+            pid = slave('/crowd_%d' % shard).getPid('/crowd_deaths_test')[2]
+            os.kill(pid, signal.SIGKILL)
+            wait_for(lambda: not people_of(shard), 'the death')  # pylint: disable=cell-var-from-loop
+            wait_for(lambda: people_of_all() == everybody, 'people after the death of shard %d' % shard)
+            stamp = rospy.Time.now()
+            after = agents.wait(lambda all: steady(all, stamp), 'steady people')
+            farthest = LONGEST + FASTEST * (after.header.stamp - before.header.stamp).to_sec()
+            moved = {old.id for old, new in zip(before.agents, after.agents) if distance(old, new) > farthest}
+            self.assertLessEqual(len(moved - set(lost)), 2)  # who crossed the border meanwhile
+
+
+if __name__ == '__main__':
+    rospy.init_node('crowd_deaths_test')
+    rostest.rosrun('vegetation_sim', 'crowd_deaths', CrowdDeaths)
