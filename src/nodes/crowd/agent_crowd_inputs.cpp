@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
-/// From the tick of a cover map to that at which all shards apply it.
+/// Time between the tick of a cover map and the tick at which all shards apply it.
 constexpr Nanoseconds COVER_LEAD = NANOSECONDS_PER_SECOND / 5;
 
 }  // namespace

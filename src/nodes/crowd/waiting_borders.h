@@ -44,7 +44,7 @@ class WaitingBorders {
   void jumpBack();
 
  private:
-  /// What a shard has sent.
+  /// Borders that a shard has sent.
   struct Sent {
     std::vector<CrowdBorder> waiting;     // by rising stamp
     std::vector<CrowdBorder> after_jump;  // that this node has not seen yet

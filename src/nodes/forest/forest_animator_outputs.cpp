@@ -62,7 +62,8 @@ void ForestAnimator::addDiagnostics(Status& status) {
   status.add("Frames of bodies without a transform", bodies_.missing().size());
   cutters_.missing().warn(name_, status);
   status.add("Cutters without a position", cutters_.missing().size());
-  status.add("Transforms too late for their tick", bodies_.late() + cutters_.late());
+  status.add("Transforms too late for their tick",
+             bodies_.late() + cutters_.late() + grab_manager_.late());
   for (const std::string& link : options_.robot.left_out)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, link);
   status.add("Links of robots without a shape", options_.robot.left_out.size());

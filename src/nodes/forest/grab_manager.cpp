@@ -178,10 +178,10 @@ void GrabManager::checkRoom(const char* what, const Place& place, const ros::Tim
     node_.forest.snapshot().physics.checkRoom(what, place.at.tree, place.at.branch);
 }
 
-// Sets the holder's pose and the target from the grab's frame. The newest transform must be younger
-// than the lease: a gripper that is no longer reported holds nothing.
-void GrabManager::setByFrame(const Vec3& point, forest::Grab& grab, Request& request) const {
-  const auto newest = lookUp(node_, grab.frame, ros::Time(0), "frame");
+// Sets the holder's pose and the target from the grab's frame. Its transform must be younger than
+// the lease: a gripper that is no longer reported holds nothing.
+void GrabManager::setByFrame(const Vec3& point, const geometry_msgs::TransformStamped& newest,
+                             forest::Grab& grab, Request& request) const {
   request.published = newest.header.stamp;
   if (!request.published.isZero()) {  // else static
     const double age = secondsBetween(fromMsg(request.published), node_.forest.snapshot().stamp);
@@ -217,7 +217,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
     grab.target = inWorld(request.target, "target");
   } else {
     grab.offset = fromMsg(request.offset);
-    setByFrame(place.point, grab, accepted);
+    setByFrame(place.point, lookUp(node_, grab.frame, ros::Time(0), "frame"), grab, accepted);
   }
   setDirection(grab);
   checkTarget(grab, place.point);

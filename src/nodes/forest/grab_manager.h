@@ -25,6 +25,7 @@
 #include "nodes/forest/forest_inputs.h"
 #include "nodes/forest/forest_options.h"
 #include "nodes/forest/grab_history.h"
+#include "ros/services/frame_lookup.h"
 
 namespace vegetation_sim {
 
@@ -47,7 +48,8 @@ Pose holderPose(const geometry_msgs::TransformStamped& transform);
 /// itself is an event until its tick and then an entry of Forest::grabs().
 class GrabManager {
  public:
-  explicit GrabManager(GrabDependencies node) : node_(node) {}
+  explicit GrabManager(GrabDependencies node)
+      : node_(node), lookup_(node.tf, node.options.frame_id, node.options.frame_wait) {}
 
   // Bodies of the services; each returns its message. All throw InvalidInput, and then nothing has
   // changed.
@@ -111,6 +113,8 @@ class GrabManager {
   std::vector<forest::BranchPoint> heldPoints() const;
   /// Number of grabs whose frame had no new transform at the last tick.
   std::size_t silent() const { return silent_; }
+  /// Number of transforms that have not come in time, see FrameLookup.
+  std::size_t late() const { return lookup_.late(); }
 
  private:
   struct Place {
@@ -127,7 +131,9 @@ class GrabManager {
   template <class ServiceRequest>
   Place choose(const ServiceRequest& request) const;
   Vec3 inWorld(const geometry_msgs::PointStamped& point, const char* name) const;
-  void setByFrame(const Vec3& point, forest::Grab& grab, Request& request) const;
+  void setByFrame(const Vec3& point, const geometry_msgs::TransformStamped& newest,
+                  forest::Grab& grab, Request& request) const;
+  geometry_msgs::TransformStamped awaitFrame(const std::string& frame);
   void setDirection(forest::Grab& grab) const;
   double checkTarget(const forest::Grab& grab, const Vec3& point) const;
   void checkRoom(const char* what, const Place& place, const ros::Time& stamp) const;
@@ -141,6 +147,7 @@ class GrabManager {
   Pose frameOf(const forest::Reaction& reaction) const;
 
   GrabDependencies node_;
+  FrameLookup lookup_;
   std::map<std::uint32_t, Request> requests_;  // by id, of grabs that wait or are in force
   GrabHistory history_;
   std::uint32_t last_id_{0};

@@ -33,8 +33,7 @@ void archiveHistory(Archive& a, GrabHistory::State& state) {
 // Uses the transform of the tick itself if tf has it, else the newest one.
 bool GrabManager::followOne(const forest::Grab& grab, Request& request, Nanoseconds stamp) {
   const std::string& world = node_.options.frame_id;
-  geometry_msgs::TransformStamped newest =
-      node_.tf.lookupTransform(world, grab.frame, ros::Time(0));
+  geometry_msgs::TransformStamped newest = lookup_.find(grab.frame);
   const ros::Time published = newest.header.stamp;
   if (!published.isZero() && published <= request.published) return false;
   const ros::Time tick = toStamp(stamp);
@@ -54,6 +53,7 @@ bool GrabManager::followOne(const forest::Grab& grab, Request& request, Nanoseco
 void GrabManager::follow(Nanoseconds stamp, const Report& report) {
   silent_ = 0;
   if (node_.options.replay) return;
+  lookup_.begin(stamp);
   for (const auto& [id, grab] : node_.forest.grabs()) {
     if (grab.frame.empty()) continue;
     try {
@@ -67,13 +67,23 @@ void GrabManager::follow(Nanoseconds stamp, const Report& report) {
   }
 }
 
+geometry_msgs::TransformStamped GrabManager::awaitFrame(const std::string& frame) {
+  try {
+    return lookup_.find(frame);
+  } catch (const tf2::TransformException& error) {
+    throw InvalidInput(
+        "frame = '" + frame + "' is not known in '" + node_.options.frame_id + "': " + error.what(),
+        FaultCode::NO_TRANSFORM);
+  }
+}
+
 void GrabManager::followFrame(ForestInput& event) {
   if (event.kind != ForestInput::GRAB || node_.options.replay) return;
   if (event.grab.frame.empty()) return setDirection(event.grab);
   const auto found = requests_.find(event.grab.id);
   if (found == requests_.end()) return;
   const Vec3 point = pointOf(event.grab);
-  setByFrame(point, event.grab, found->second);
+  setByFrame(point, awaitFrame(event.grab.frame), event.grab, found->second);
   setDirection(event.grab);
   checkTarget(event.grab, point);
 }

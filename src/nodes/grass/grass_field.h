@@ -122,7 +122,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::string shownTopic(const std::string& topic) const;
   /// The ground of this node, or that of all shards.
   const grass::TreadSimulation& shown() const { return whole_ ? whole_->field() : *field_; }
-  /// Receives the ground of all shards while somebody subscribes to views of it.
+  /// Receives the ground of all shards while views of it have subscribers.
   void followWhole(Nanoseconds stamp);
   bool isCoverWanted() const;
 

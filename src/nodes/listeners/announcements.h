@@ -12,7 +12,7 @@
 
 namespace vegetation_sim {
 
-/// What listeners have announced, by id, until they are silent.
+/// Announcements of listeners, by id, until they are silent.
 template <class Value>
 class Announcements {
  public:

@@ -64,7 +64,8 @@ void ShardRegistry::checkSender(std::uint32_t shard, const std::string& process)
 }
 
 bool ShardRegistry::isEarlier(const ShardNode& message) const {
-  return std::tie(message.started, message.node) < std::tie(own_.started, own_.node);
+  return message.open ||
+         std::tie(message.started, message.node) < std::tie(own_.started, own_.node);
 }
 
 std::shared_ptr<ShardRegistry::Peer> ShardRegistry::find(std::uint32_t shard) const {

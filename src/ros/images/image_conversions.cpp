@@ -35,7 +35,7 @@ sensor_msgs::Image imageOf(const std::vector<Value>& pixels, const scan::Lens& s
   return out;
 }
 
-// What a picture without rectification, binning and region of interest cannot follow.
+// A picture has no rectification, binning or region of interest, so these are refused.
 void checkRest(const sensor_msgs::CameraInfo& info, const std::string& context, Faults& faults) {
   const auto allow = [&](const std::string& name, double value, double low, double high) {
     FieldChecker(context, faults).number(name.c_str(), value, "", {low, high});

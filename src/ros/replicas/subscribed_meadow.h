@@ -97,7 +97,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   const std::string& why() const { return replica_.why(); }
 
  private:
-  /// What the last update of a shard says.
+  /// The last update of a shard.
   struct Part {
     bool in_step{false};
     std::vector<InterestArea> discs{};  // that have all tracks; none: the whole meadow has

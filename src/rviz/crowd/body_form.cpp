@@ -38,7 +38,7 @@ const FormRing TRUNK[] = {{-0.055, 0.030, 0.034, 0.000, Cover::TROUSERS, true},
                           {0.327, 0.031, 0.032, -0.003, Cover::SKIN, true},
                           {0.345, 0.029, 0.031, 0.000, Cover::SKIN},
                           {0.372, 0.030, 0.033, 0.004, Cover::SKIN}};
-// From the neck up the spine, listed from the chin.
+// The head and the neck, listed from the chin along the spine.
 const FormRing HEAD[] = {{-0.008, 0.014, 0.016, 0.030, Cover::FACE, true},
                          {0.000, 0.025, 0.030, 0.020, Cover::FACE},
                          {0.012, 0.034, 0.041, 0.012, Cover::FACE, true},
@@ -92,7 +92,7 @@ const FormRing LEG[] = {{-0.045, 0.022, 0.026, -0.002, Cover::TROUSERS, true},
                         {0.410, 0.032, 0.037, -0.004, Cover::TROUSERS, true},
                         {0.455, 0.031, 0.036, 0.000, Cover::TROUSERS},
                         {0.474, 0.031, 0.037, 0.002, Cover::TROUSERS, true}};
-// From the heel to the toes.
+// Listed from the heel to the toes.
 const FormRing SHOE[] = {
     {-0.018, 0.009, 0.010, 0.002, Cover::SHOES, true}, {-0.010, 0.021, 0.022, 0.004, Cover::SHOES},
     {0.012, 0.025, 0.030, 0.012, Cover::SHOES, true},  {0.040, 0.026, 0.034, 0.016, Cover::SHOES},

@@ -8,7 +8,7 @@
 
 namespace vegetation_sim::view {
 
-/// What covers a place of a body.
+/// The cover of a place of a body.
 enum class Cover { SKIN, FACE, HAIR, SHIRT, COLLAR, SLEEVE, BELT, TROUSERS, SHOES, SOLES };
 
 /// Ellipse around an axis of a body, in heights of the person.

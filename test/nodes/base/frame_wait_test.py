@@ -11,6 +11,8 @@ from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import CrowdEvent, ForestEvent, GrassEvent
 
+from vegetation_sim.srv import Grab
+
 from crowd_rig import Crowd
 from forest_rig import RATE, Animator, TickClock, time_of
 from grass_rig import Meadow
@@ -19,6 +21,7 @@ from watched_node import publisher, wait_for_readers
 START = 1000 * RATE
 TICKS = 20
 STEP = 0.1  # motion of the robot in a tick [m]
+GRABBED = 5  # tick after which the robot holds a trunk
 DELAY = 0.05  # wall time between the clock and tf [s]
 NODES = '/forest_animator', '/grass_field', '/agent_crowd'
 
@@ -38,6 +41,10 @@ class FrameWait(unittest.TestCase):
             cls.publish(tick)
             for node in cls.nodes:
                 node.state.wait_for_stamp(time_of(tick), lambda: cls.clock.show(tick))
+            if tick == START + GRABBED:
+                grab = rospy.ServiceProxy('/forest_animator/grab', Grab)
+                answer = grab(tree=0, branch=0, along=0.5, frame='robot', keep_offset=True)
+                assert answer.success, answer.message
 
     @classmethod
     def publish(cls, tick):
@@ -57,6 +64,10 @@ class FrameWait(unittest.TestCase):
     def test_bodies_are_where_they_are_at_the_tick(self):
         self.expect_places([e for e in self.forest.events.messages if e.kind == ForestEvent.BODY],
                            lambda event: event.body.pose.position)
+
+    def test_grippers_are_where_they_are_at_the_tick(self):
+        self.expect_places([e for e in self.forest.events.messages if e.kind in (ForestEvent.GRAB, ForestEvent.MOVE)],
+                           lambda event: event.grab.holder.position)
 
     def test_sources_are_where_they_are_at_the_tick(self):
         self.expect_places([e for e in self.grass.events.messages if e.kind == GrassEvent.TREAD],

@@ -53,8 +53,8 @@ class CrowdDeaths(unittest.TestCase):
         agents = Log('/agents', AgentStates)
         for shard in range(SHARDS):
             rospy.wait_for_service('/crowd_%d/owned/find_agents' % shard, DEADLINE)
-        everybody = list(range(PEOPLE))
-        wait_for(lambda: people_of_all() == everybody, 'people at first')
+        all_people = list(range(PEOPLE))
+        wait_for(lambda: people_of_all() == all_people, 'people at first')
         for shard in (1, 0, 2, 1):
             rospy.sleep(3.0)  # in which people cross borders
             before = agents.messages[-1]
@@ -63,7 +63,7 @@ class CrowdDeaths(unittest.TestCase):
             pid = slave('/crowd_%d' % shard).getPid('/crowd_deaths_test')[2]
             os.kill(pid, signal.SIGKILL)
             wait_for(lambda: not people_of(shard), 'the death')  # pylint: disable=cell-var-from-loop
-            wait_for(lambda: people_of_all() == everybody, 'people after the death of shard %d' % shard)
+            wait_for(lambda: people_of_all() == all_people, 'people after the death of shard %d' % shard)
             stamp = rospy.Time.now()
             after = agents.wait(lambda all: steady(all, stamp), 'steady people')
             farthest = LONGEST + FASTEST * (after.header.stamp - before.header.stamp).to_sec()

@@ -103,10 +103,17 @@ TEST(ShardRegistry, NamesNodesThatDoNotFit) {
             other + "the hash of the scenario's layout = 9" + allowed + "7");
   EXPECT_EQ(refusal(changed(&ShardNode::rate, 20u)), other + "state_rate = 20" + allowed + "30");
   EXPECT_EQ(registry.describeMissing(), "0, 2");
-  // Of two nodes the one that has started later does not run.
-  EXPECT_TRUE(registry.isEarlier(announced(0, 2, "/other")));
-  EXPECT_FALSE(registry.isEarlier(announced(2, 2, "/other")));
-  EXPECT_FALSE(registry.isEarlier(announced(1, 2, "/own")));
+  // Of two nodes that start, the later one does not run.
+  const auto starting = [](std::uint32_t shard, const std::string& node) {
+    ShardNode out = announced(shard, 2, node);
+    out.open = false;
+    return out;
+  };
+  EXPECT_TRUE(registry.isEarlier(starting(0, "/other")));
+  EXPECT_FALSE(registry.isEarlier(starting(2, "/other")));
+  EXPECT_FALSE(registry.isEarlier(starting(1, "/own")));
+  // One that answers requests was there before, also if the clock of its host is ahead.
+  EXPECT_TRUE(registry.isEarlier(announced(2, 2, "/other")));
 }
 
 ShardReply<Pick::Response> reply(std::uint32_t shard, double distance, std::uint8_t error,

@@ -12,7 +12,7 @@ from geometry_msgs.msg import Point, PointStamped, TransformStamped, Vector3, Ve
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
-from vegetation_sim.msg import ForestState, GrassCut, GrassState, TreadEvent
+from vegetation_sim.msg import ForestState, GrassCut, GrassState, SensorInterest, TreadEvent
 from vegetation_sim.srv import (ApplyForce, CutBranch, CutGrass, FindBranch, GetTree, Grab, MoveGrab, Release,
                                 SampleGrass, Tread)
 
@@ -73,6 +73,10 @@ class World:
         self.clouds = [{}, {}]
         for cloud, topic in zip(self.clouds, ('/lidar/points', '/whole/lidar/points')):
             rospy.Subscriber(topic, PointCloud2, lambda m, c=cloud: c.update({m.header.stamp: m}))
+        self.announced = {}  # stamp from which the newest announcement of each lidar holds, by topic
+        for topic in ('/forest/sensors', '/whole/forest/sensors'):
+            rospy.Subscriber(topic, SensorInterest,
+                             lambda m, t=topic: self.announced.update({t: m.header.stamp}), tcp_nodelay=True)
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100, tcp_nodelay=True)
         self.tread = rospy.Publisher('/tread', TreadEvent, queue_size=1000, tcp_nodelay=True)
         self.clock = SimulatedClock()
@@ -88,6 +92,8 @@ class World:
         self.clock.set(self.stamp(1) + rospy.Duration(0.5 / RATE))
         self.tick += 1
         self.wait_for_states()
+        # Lidars that are late would announce themselves to the shards at different ticks.
+        wait_for(lambda: all(stamp >= self.stamp(2) for stamp in list(self.announced.values())), 'lidars')
 
     def wait_for_states(self):
         """Waits for the states of the last tick, of all shards that are alive."""

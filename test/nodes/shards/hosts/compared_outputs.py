@@ -62,6 +62,11 @@ class Forces:
         divided, whole = (self._by_stamp(log) for log in self._logs)
         both = set(divided) & set(whole)
         equal = [stamp for stamp in both if divided[stamp] == whole[stamp]]
+        if len(equal) < len(both):
+            first = min(both - set(equal))
+            for name, forces in (('shards', divided), ('one node', whole)):
+                others = [values for values in forces[first] if values not in (divided, whole)[name == 'shards'][first]]
+                print('different forces of %s at %s: %s' % (name, first, others[:3]))
         all_of = [values for list_ in whole.values() for values in list_]
         return len(both), len(equal), (sum(not v[0] for v in all_of), sum(v[0] and v[7] != '' for v in all_of))
 
