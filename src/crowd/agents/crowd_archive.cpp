@@ -102,7 +102,7 @@ void archiveFields(Archive& a, CrowdBorder& border) {
       [&a](std::uint32_t& shard) { a.integer("shard", shard); },
       [&a](std::uint32_t, Nanoseconds& stamp) { a.stamp("stamp heard", stamp); });
   a.integer("run", border.run);
-  a.stamp("begun", border.begun);
+  a.integer("begun", border.begun);  // of a process: a load does not move it
   a.flag("starts", border.starts);
   a.flag("lists", border.lists);
   a.list("ids", border.ids, 2 * MOST_WALKERS, 4, [&a](std::uint32_t& id) { a.integer("id", id); });
@@ -137,11 +137,11 @@ void CrowdShard::archive(Archive& a) {
   archivePeople(a, left_);
   a.stamp("stamp of the last tick", last_);
   a.integer("run", run_);
-  Nanoseconds begun = begun_.value_or(0);
-  a.stamp("begun", begun);
   a.flag("starts", starts_);
   if (!a.reads()) return;
-  begun_ = begun;
+  begun_ = 0;
+  for (std::uint32_t i = 0; i < owners_.shard().count; ++i) known_.insert(i);
+  asked_ = 0;
   fresh_ = false;
   start_.clear();
   waiting_.clear();

@@ -26,7 +26,7 @@ CrowdBorder CrowdShard::begin(Start start) {
     known_.clear();
   }
   starts_ = false;
-  start_stamp_ = 0;
+  asked_ = 0;
   std::vector<Walker> others = start_;
   CrowdBorder out = endTick();
   start_ = std::move(others);
@@ -48,6 +48,7 @@ CrowdBorder CrowdShard::endTick() {
   out.handed = handed_;
   out.run = run_;
   out.starts = starts_;
+  if (starts_ && asked_ == 0) asked_ = last_;
   for (const auto& [shard, border] : borders_) {
     out.heard[shard] = border.stamp;
     out.lists = out.lists || border.starts;
@@ -64,7 +65,7 @@ void CrowdShard::startBesideOthers() {
 
 void CrowdShard::removeAll() {
   starts_ = true;
-  start_stamp_ = 0;
+  asked_ = 0;
   handed_.clear();
   left_.clear();
   while (!crowd_->walkers().empty()) crowd_->remove(crowd_->walkers().back().id);
@@ -76,49 +77,85 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
   if (shard >= own.count || shard == own.index)
     throw InvalidInput("border: shard = " + std::to_string(shard) + " is no other shard of the " +
                        std::to_string(own.count) + " than this one, " + std::to_string(own.index));
-  const auto last = borders_.find(shard);
-  if (last != borders_.end() && border.stamp <= last->second.stamp) return;
+  const auto known = borders_.find(shard);
+  if (known != borders_.end() && border.stamp <= known->second.stamp) return;
   const bool is_younger = fresh_ || border.begun < begun_.value_or(0);
-  if (border.stamp > 0 && is_younger && known_.insert(shard).second && !starts_) removeAll();
-  if (isStarting()) run_ = std::max(run_, border.run);
-  if (border.run < run_) return;
-  const auto found = border.heard.find(own.index);
-  if (found != border.heard.end())
-    handed_.erase(std::remove_if(handed_.begin(), handed_.end(),
-                                 [&](const CrowdBorder::Handed& handed) {
-                                   return handed.to == shard && handed.stamp <= found->second;
-                                 }),
-                  handed_.end());
-  for (const CrowdBorder::Handed& handed : border.handed) {
-    const bool is_new = last == borders_.end() || handed.stamp > last->second.stamp;
-    if (handed.to == own.index && is_new && !has(handed.walker.id)) crowd_->takeIn(handed.walker);
+  const bool is_first = border.stamp > 0 && known_.insert(shard).second;
+  if (is_first && is_younger && !starts_) removeAll();
+  if (isStarting() && border.run > run_) {  // people from before the reset are void
+    run_ = border.run;
+    if (starts_) removeAll();
   }
+  if (border.run < run_) return;
+  forgetTaken(shard, border);
+  takeIn(shard, border);
   borders_[shard] = std::move(border);
 }
 
+// Forgets those on the way to a shard that has heard of them.
+void CrowdShard::forgetTaken(std::uint32_t shard, const CrowdBorder& border) {
+  const auto heard = border.heard.find(owners_.shard().index);
+  if (heard == border.heard.end()) return;
+  handed_.erase(std::remove_if(handed_.begin(), handed_.end(),
+                               [&](const CrowdBorder::Handed& handed) {
+                                 return handed.to == shard && handed.stamp <= heard->second;
+                               }),
+                handed_.end());
+}
+
+// A shard that has started later and has not heard this one yet may have people who live elsewhere.
+// It removes them once it does.
+void CrowdShard::takeIn(std::uint32_t shard, const CrowdBorder& border) {
+  const std::uint32_t own = owners_.shard().index;
+  if (begun_ && border.begun > *begun_ && border.heard.count(own) == 0) return;
+  const auto known = borders_.find(shard);
+  for (const CrowdBorder::Handed& handed : border.handed) {
+    const bool is_new = known == borders_.end() || handed.stamp > known->second.stamp;
+    if (handed.to != own || !is_new || crowd_->find(handed.walker.id)) continue;
+    // Somebody who comes back before the shard between has said so is no longer on the way to it.
+    const auto on_way = std::find_if(handed_.begin(), handed_.end(), [&](const auto& other) {
+      return other.walker.id == handed.walker.id;
+    });
+    if (on_way != handed_.end() && on_way->stamp >= handed.stamp) continue;
+    if (on_way != handed_.end()) handed_.erase(on_way);
+    crowd_->takeIn(handed.walker);
+  }
+}
+
+// Whether a border lists the people of its shard as they were after this one had asked.
+bool CrowdShard::hasAnswered(std::uint32_t shard) const {
+  const auto found = borders_.find(shard);
+  if (found == borders_.end() || found->second.stamp < last_ || !found->second.lists) return false;
+  const auto heard = found->second.heard.find(owners_.shard().index);
+  return heard != found->second.heard.end() && heard->second >= asked_;
+}
+
 std::optional<std::size_t> CrowdShard::spawnMissing(const std::vector<Spawn>& spawns) {
-  if (!starts_ || fresh_) return {};
-  if (start_stamp_ == 0) start_stamp_ = last_;
-  const bool is_patient = secondsBetween(start_stamp_, last_) < LONGEST_START;
-  std::set<std::uint32_t> elsewhere;
+  if (!starts_ || asked_ == 0) return {};
+  const bool is_patient = secondsBetween(asked_, last_) < LONGEST_START;
+  std::set<std::uint32_t> elsewhere, starters;
   bool knows_all = true;
   for (std::uint32_t i = 0; i < owners_.shard().count; ++i) {
     if (i == owners_.shard().index) continue;
+    if (!hasAnswered(i)) {
+      if (is_patient) return {};
+      knows_all = false;
+    }
     const auto found = borders_.find(i);
-    const bool is_heard = found != borders_.end() && found->second.stamp >= last_;
-    if (!is_heard && is_patient) return {};
-    const bool runs = is_heard && !found->second.starts;
-    knows_all = knows_all && runs;
-    if (runs && !found->second.lists) return {};
     if (found == borders_.end()) continue;
     elsewhere.insert(found->second.ids.begin(), found->second.ids.end());
+    if (found->second.starts) starters.insert(i);
   }
   starts_ = false;
+  // The first of the shards that start has those whose region belongs to one that runs.
+  const bool is_first = starters.empty() || owners_.shard().index < *starters.begin();
   std::size_t out = 0;
   for (std::size_t i = 0; i < spawns.size(); ++i) {
     const auto id = static_cast<std::uint32_t>(i);
-    if (elsewhere.count(id) > 0 || crowd_->find(id)) continue;
-    if (!knows_all && !owners_.owns(spawns[i].position)) continue;
+    if (elsewhere.count(id) > 0 || has(id)) continue;
+    const std::uint32_t owner = owners_.ownerAt(spawns[i].position);
+    const bool is_own = owner == owners_.shard().index;
+    if (!is_own && !(knows_all && is_first && starters.count(owner) == 0)) continue;
     crowd_->spawn(spawns[i], id);
     ++out;
   }

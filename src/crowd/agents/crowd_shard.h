@@ -26,9 +26,11 @@ struct CrowdBorder {
   std::vector<Handed> handed;  ///< until their new shard has heard of them
   std::map<std::uint32_t, Nanoseconds> heard;  ///< stamps of the newest borders of other shards
   std::uint32_t run{0};  ///< how often the crowd was reset; of an earlier run it counts no longer
-  Nanoseconds begun{0};  ///< stamp of the first tick since the shard started; 0: unknown, long ago
-  bool starts{false};    ///< the shard has started while others run, and asks for `ids`
-  bool lists{false};     ///< `ids` are given
+  /// Stamp of the first tick since the shard started; 0: before it, or the shard has loaded a
+  /// state.
+  Nanoseconds begun{0};
+  bool starts{false};              ///< the shard has started while others run, and asks for `ids`
+  bool lists{false};               ///< `ids` are given
   std::vector<std::uint32_t> ids;  ///< of the shard's people, and of those in `handed`
 };
 
@@ -62,16 +64,19 @@ class CrowdShard {
   /// after each tick.
   CrowdBorder endTick();
   /// Takes the border of another shard, and in those who come from there. One that is not newer
-  /// than the last, or from before a reset, is ignored. If this shard hears the other for the first
-  /// time and has started later, it removes all people, until spawnMissing(), since the other may
-  /// have them. @throws InvalidInput for another shard than there are.
+  /// than the last, or from before a reset, is ignored. If this shard hears a tick of the other for
+  /// the first time and has started later, it removes all people, until spawnMissing(), since the
+  /// other may have them. @throws InvalidInput for another shard than there are.
   void hear(std::uint32_t shard, CrowdBorder border);
   /// Does the same before the first tick, if another shard is known to have run before.
   void startBesideOthers();
-  /// If the shard has started while others run, and these have listed their people: spawns those
-  /// whom none of them has, and returns their number. If one of them starts too, or has been silent
-  /// for LONGEST_START, only those whose start is here. To be called before beginTick().
-  /// @param spawns people by their ids.
+  /// Whether the shard has no people yet, since others have not listed theirs.
+  bool asksOthers() const { return starts_; }
+  /// If the shard has started while others run, and these have listed their people since: spawns
+  /// those whom none of them has, and returns their number. Of several shards that start, the first
+  /// spawns those whose start is in the region of one that runs. If one is silent for
+  /// LONGEST_START, only those whose start is here. To be called before beginTick(). @param spawns
+  /// people by ids.
   std::optional<std::size_t> spawnMissing(const std::vector<Spawn>& spawns);
   /// Shows people those of others. To be called before Crowd::advance().
   void beginTick();
@@ -91,6 +96,9 @@ class CrowdShard {
 
  private:
   void removeAll();
+  void forgetTaken(std::uint32_t shard, const CrowdBorder& border);
+  void takeIn(std::uint32_t shard, const CrowdBorder& border);
+  bool hasAnswered(std::uint32_t shard) const;
   /// Whether the person is here or on the way to another shard.
   bool has(std::uint32_t id) const;
   bool isStarting() const { return fresh_ || starts_; }
@@ -107,9 +115,9 @@ class CrowdShard {
   std::uint32_t run_{0};
   bool fresh_{false};                 // no tick has run since the start
   bool starts_{false};                // until spawnMissing()
-  std::optional<Nanoseconds> begun_;  // stamp of the first tick
-  std::set<std::uint32_t> known_;     // shards heard since the start
-  Nanoseconds start_stamp_{0};        // of the tick since which it waits for lists; 0: none yet
+  std::optional<Nanoseconds> begun_;  // stamp of the first tick; 0: of a state that was loaded
+  std::set<std::uint32_t> known_;     // shards whose ticks were heard since the start
+  Nanoseconds asked_{0};              // stamp of the first border with `starts`; 0: none yet
 };
 
 /// A border as bytes, and back. @throws InvalidInput for bytes that are no border.

@@ -111,6 +111,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::vector<std::uint32_t> allIds() const;
   std::uint32_t takeId();
   void hearBorders(Nanoseconds stamp);
+  bool isAnyRunningShardSilent();
   void applyBorder(std::uint64_t hash);
   void beginTickOfShard();
   void endTickOfShard();
@@ -180,6 +181,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   HashedCache<nav_msgs::OccupancyGrid> covers_;
   std::uint64_t trunks_hash_{0}, cover_hash_{0};    // of the messages in force; 0: none
   std::uint64_t heard_layout_{0}, heard_cover_{0};  // of the newest ones
+  bool is_first_tick_{true};                        // of the process
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   TierHysteresis held_frames_;   // 1: has one

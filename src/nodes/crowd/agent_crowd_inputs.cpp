@@ -114,6 +114,9 @@ std::size_t AgentCrowd::keepOwn(std::vector<std::uint32_t>& ids) const {
 bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
+    if (isPart() && shard_->asksOthers())
+      throw InvalidInput("the shard starts, and does not know the ids of all people yet",
+                         FaultCode::NOT_AVAILABLE);
     const std::uint32_t count = request.count;
     const auto most = static_cast<std::size_t>(options_.most_walkers);
     const std::size_t room = most - std::min(crowd_.walkers().size() + waitingWalkers(), most);

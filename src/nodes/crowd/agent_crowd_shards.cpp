@@ -152,7 +152,8 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
   if (!inbox_) return;
   const crowd::CrowdSnapshot& state = crowd_.snapshot();
   const std::vector<CrowdBorder> taken = inbox_->take(state.begun ? state.stamp : 0, stamp);
-  if (inbox_->isAnyAhead()) shard_->startBesideOthers();
+  if (inbox_->isAnyAhead() || isAnyRunningShardSilent()) shard_->startBesideOthers();
+  is_first_tick_ = false;
   for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
     Hash hash;
     hash.add(bytesOf(*border));
@@ -162,6 +163,14 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
     event.input_hash = hash.value();
     inputs_.addFirst(event);
   }
+}
+
+// Whether, at the first tick, the borders of a shard that answers requests have not come in time.
+bool AgentCrowd::isAnyRunningShardSilent() {
+  if (!is_first_tick_) return false;
+  for (std::uint32_t i = 0; i < options_.shard->count; ++i)
+    if (shards()->registry().isOpen(i) && !inbox_->hasSent(i)) return true;
+  return false;
 }
 
 void AgentCrowd::applyBorder(std::uint64_t hash) {

@@ -28,6 +28,8 @@ class BorderInbox {
   std::vector<CrowdBorder> take(Nanoseconds before, Nanoseconds now);
   /// Whether a shard has sent the border after a later tick: it has run before this one.
   bool isAnyAhead() const { return borders_.isAnyAhead(); }
+  /// Whether a border of a shard has come.
+  bool hasSent(std::uint32_t shard) const { return borders_.hasSent(shard); }
   /// Forgets the borders from before a jump back of the clock.
   void jumpBack() { borders_.jumpBack(); }
   /// Number of borders that have not come in time.

@@ -38,6 +38,8 @@ class WaitingBorders {
   std::size_t dropLate();
   /// Whether a shard has sent the border after a later tick: it has run before this one.
   bool isAnyAhead() const;
+  /// Whether a border of a shard has come.
+  bool hasSent(std::uint32_t shard) const { return sent_.count(shard) > 0; }
   /// Returns the newest border of each shard that is earlier than the tick, by rising shard.
   std::vector<CrowdBorder> take();
   /// Expects the borders from after a jump back of the clock instead.

@@ -68,6 +68,11 @@ bool ShardRegistry::isEarlier(const ShardNode& message) const {
          std::tie(message.started, message.node) < std::tie(own_.started, own_.node);
 }
 
+bool ShardRegistry::isOpen(std::uint32_t shard) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return peers_.count(shard) > 0;
+}
+
 std::shared_ptr<ShardRegistry::Peer> ShardRegistry::find(std::uint32_t shard) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = peers_.find(shard);

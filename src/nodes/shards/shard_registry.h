@@ -43,8 +43,10 @@ class ShardRegistry {
   void checkSender(std::uint32_t shard, const std::string& process) const;
   /// @throws InvalidInput as hear() does.
   void checkFit(const ShardNode& message) const;
-  /// Returns whether the node of an announcement started before this one, which starts: it answers
-  /// requests, or has the earlier start. Clocks of hosts may differ.
+  /// Returns whether the node of another shard answers requests.
+  bool isOpen(std::uint32_t shard) const;
+  /// Returns whether the node of an announcement was there before this one, which starts: its
+  /// services are open, or its start is earlier. Clocks of hosts may differ.
   bool isEarlier(const ShardNode& message) const;
   /// @throws InvalidInput that names the shard if no node has announced it.
   std::shared_ptr<Peer> find(std::uint32_t shard) const;

@@ -29,7 +29,7 @@ void checkFrame(const std::string& frame, const std::string& world);
 /// Returns when a request takes effect: its stamp if that is in the future, else zero for the next
 /// tick. @throws InvalidInput for a stamp more than a minute ahead.
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock);
-/// Says when that is, for the answer of a request.
+/// Says when a request takes effect, for its answer.
 std::string describeEffect(const ros::Time& effect);
 
 }  // namespace vegetation_sim

@@ -25,6 +25,7 @@ from forest_rig import RATE, time_of
 from scan_rig import cloud_of
 from sharded_world import FIRST, Requests, World
 from waiting import wait_for
+from watched_node import Log
 
 WARM_UP = 1.0  # clouds are compared after this time [s]
 CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
@@ -90,6 +91,14 @@ def pass_partition(world, requests, shards):
     return ticks, seconds, link.is_told(shards)
 
 
+def wait_for_crowds():
+    """Waits until all crowds run, so that they have the same first tick."""
+    reports = Log('/diagnostics', DiagnosticArray)
+    names = {'crowd_0', 'crowd_1', 'crowd_all'}
+    reports.wait(lambda all: names <= {s.name.split(':')[0] for m in all for s in m.status}, 'reports of crowds')
+    reports.close()
+
+
 def main():
     ticks, shards = int(sys.argv[1]), int(sys.argv[2])
     rospy.init_node('drive_hosts')
@@ -98,6 +107,7 @@ def main():
     world = World(shards, others=OTHERS + (2 if pictures else 0))
     people.wait_for_links()
     forces.wait_for_links()
+    wait_for_crowds()
     for _ in range(5):
         world.show_frames()
         world.run_tick()
