@@ -17,6 +17,7 @@ import time
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.msg import ConfigDescription
 from vegetation_sim.srv import GetTree
 
 from compared_outputs import Forces, People
@@ -25,10 +26,10 @@ from forest_rig import RATE, time_of
 from scan_rig import cloud_of
 from sharded_world import FIRST, Requests, World
 from waiting import wait_for
-from watched_node import Log
 
 WARM_UP = 1.0  # clouds are compared after this time [s]
 CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
+PAUSE = 0.05  # [s] after a tick without a link, so that there are fewer than treads are ahead
 
 
 OTHERS = 7  # nodes beside forests and grass
@@ -74,7 +75,7 @@ def pass_partition(world, requests, shards):
     while time.monotonic() < begin + CUT:
         world.show_frames()
         world.run_tick()
-        pause.wait(1.0 / RATE)
+        pause.wait(PAUSE)
     link.join()
     ticks = world.tick - first
     world.alive += 1
@@ -92,11 +93,9 @@ def pass_partition(world, requests, shards):
 
 
 def wait_for_crowds():
-    """Waits until all crowds run, so that they have the same first tick."""
-    reports = Log('/diagnostics', DiagnosticArray)
-    names = {'crowd_0', 'crowd_1', 'crowd_all'}
-    reports.wait(lambda all: names <= {s.name.split(':')[0] for m in all for s in m.status}, 'reports of crowds')
-    reports.close()
+    """Waits until all crowds have joined their shards and run, so that they have the same first tick."""
+    for name in ('/crowd_0', '/crowd_1', '/whole/crowd_all'):
+        rospy.wait_for_message(name + '/parameter_descriptions', ConfigDescription, 60.0)
 
 
 def main():
