@@ -11,6 +11,8 @@ namespace {
 
 /// Physical branches stay so down to this fraction of the tolerance (hysteresis).
 constexpr double KEEP = 0.5;
+/// A force of a grab up to this one needs no more physical branches at once [N].
+constexpr double WEAK_PULL = 1.0;
 
 std::size_t physicalSteps(Nanoseconds from, Nanoseconds to) {
   const Nanoseconds gap = to - from;
@@ -173,8 +175,21 @@ void ForestPhysics::promoteLoaded(const StepContext& context, Nanoseconds from, 
     PhysicalSubtree& subtree = subtrees_.at(tree);
     bool missing = false;
     for (const int branch : branches) missing = missing || !subtree.holds(branch);
-    if (subtree.isInReview() || missing) promoteInTree(context, tree, subtree, branches, from);
+    if (subtree.isInReview() || missing || isPulledHarder(tree))
+      promoteInTree(context, tree, subtree, branches, from);
   }
+}
+
+// Returns true if the target of a grab of the tree has moved so far since the last tick that its
+// force may grow by half: such a pull needs its branches before the next review.
+bool ForestPhysics::isPulledHarder(std::uint32_t tree) const {
+  const auto grows = [&](const auto& entry) {
+    const HeldGrab& grab = entry.second;
+    if (grab.point.tree != tree) return false;
+    const double pull = grab.stiffness * length(grab.target - grab.last_target);
+    return std::min(pull, grab.force_limit) > std::max(WEAK_PULL, 0.5 * length(grab.force));
+  };
+  return std::any_of(grabs_.begin(), grabs_.end(), grows);
 }
 
 // Adds all branches of a tree that have not come off.

@@ -145,6 +145,7 @@ class ForestPhysics {
   void archiveContacts(Archive& a, const Layout& layout);
   void checkRead(const Layout& layout, const GrowTree& grow) const;
   PhysicalSubtree& findOrAddSubtree(const StepContext& context, std::uint32_t tree);
+  bool isPulledHarder(std::uint32_t tree) const;
   void appendWholeTree(const StepContext& context, std::uint32_t tree, std::vector<int>& loaded);
   void requestReview(const StepContext& context, std::uint32_t tree);
   void beginReviews(const StepContext& context, Nanoseconds start);

@@ -357,6 +357,31 @@ TEST(HandOver, RegrabInTheBlendJumpsNeitherInAngleNorInRate) {
   EXPECT_LT(worst.rate, 0.01);
 }
 
+// A target that jumps needs as many physical branches in that tick as one that was there from the
+// beginning. A limb that alone is physical would break under a force that the tree can bear.
+TEST(HandOver, TargetThatJumpsMakesItsBranchesPhysicalAtOnce) {
+  const auto held = [](bool jumps) {
+    PhysicsRig rig;
+    Grab grab = rig.grabOf(rig.branchOfDepth(1));
+    grab.stiffness = 2e4;
+    grab.damping = 200.0;
+    grab.force_limit = 5000.0;
+    const Vec3 target = grab.target + Vec3(0.2, 0, 0);
+    if (!jumps) grab.target = target;
+    const std::uint32_t id = rig.forest.addGrab(grab);
+    rig.advance();
+    if (!jumps) return rig.forest.promoted(0).branches.size();
+    EXPECT_LT(rig.forest.promoted(0).branches.size(), 5u);  // no force yet
+    rig.forest.moveGrab(id, target);
+    rig.advance();
+    EXPECT_TRUE(rig.forest.breaks().empty());
+    return rig.forest.promoted(0).branches.size();
+  };
+  const std::size_t all = held(false);
+  EXPECT_GT(all, 20u);
+  EXPECT_EQ(held(true), all);
+}
+
 // S1-25: nothing is held before a branch is touched or after it has blended back.
 TEST(HandOver, NothingIsHeldBeforeAndAfter) {
   PhysicsRig rig({}, 4);
