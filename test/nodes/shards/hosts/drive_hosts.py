@@ -30,9 +30,8 @@ from waiting import wait_for
 WARM_UP = 1.0  # clouds are compared after this time [s]
 CUT, CALM, AFTER = 5.0, 60, 60  # time without a link [s]; ticks before it without treads, and after it
 PAUSE = 0.05  # [s] after a tick without a link, so that there are fewer than treads are ahead
-
-
 OTHERS = 7  # nodes beside forests and grass
+CROWDS = '/crowd_0', '/crowd_1', '/whole/crowd_all'
 
 
 class CutLink:
@@ -93,9 +92,20 @@ def pass_partition(world, requests, shards):
 
 
 def wait_for_crowds():
-    """Waits until all crowds have joined their shards and run, so that they have the same first tick."""
-    for name in ('/crowd_0', '/crowd_1', '/whole/crowd_all'):
+    """Waits until all crowds have joined their shards."""
+    for name in CROWDS:
         rospy.wait_for_message(name + '/parameter_descriptions', ConfigDescription, 60.0)
+
+
+def run_first_tick(world):
+    """Runs the first tick, until all nodes have had it: time stands still meanwhile, and who hears of it
+    late has the same first tick."""
+    world.show_frames()
+    world.run_tick()
+    names = ['/%s_%d' % (kind, i) for kind in world.states for i in range(world.shards)]
+    names += ['/whole/%s_all' % kind for kind in world.states]
+    for name in (*names, *CROWDS):
+        rospy.wait_for_service(name + '/reset', 60.0)
 
 
 def main():
@@ -107,12 +117,10 @@ def main():
     people.wait_for_links()
     forces.wait_for_links()
     wait_for_crowds()
-    for _ in range(5):
+    run_first_tick(world)
+    for _ in range(4):
         world.show_frames()
         world.run_tick()
-    for kind in world.states:
-        for node in ['/%s_%d' % (kind, i) for i in range(shards)] + ['/whole/%s_all' % kind]:
-            rospy.wait_for_service(node + '/reset', 60.0)
     wait_for(world.is_joined, 'shards to find each other')
     requests, begin = Requests(world), time.monotonic()
     for age in range(ticks):
