@@ -107,12 +107,19 @@ class EventNode : public SavedNode<Queue, Options> {
   /// Predicts the errors of what the node sends (N9).
   virtual std::vector<PredictedError> predictErrors() const = 0;
 
-  /// Joins the other shards, if there are any; to be called before the node publishes.
+  /// Whether the node has a part of the world, and others have the rest.
+  bool isPart() const { return options_.shard && options_.shard->count > 1; }
+  /// Whether the node shows the world of all shards, which shard 0 does for all.
+  bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
+  /// Joins the other shards, if there are any; to be called before the node publishes. A node that
+  /// has the whole refuses them.
   /// @param what the node simulates. @param messages md5 sums of layout and state.
   /// @throws InvalidInput if a shard that was there before does not fit.
   void join(const char* what, const std::string& messages, std::uint64_t layout_hash,
             std::uint64_t terrain_hash) {
-    if (!options_.shard || options_.shard->count == 1) return;
+    const std::string shards = std::string(what) + "/shards";
+    if (!isPart() && !options_.replay) this->refuseShards(shards);
+    if (!isPart()) return;
     ShardNode own;
     own.header.frame_id = options_.frame_id;
     own.shard = options_.shard->index;
@@ -121,7 +128,7 @@ class EventNode : public SavedNode<Queue, Options> {
     own.layout_hash = layout_hash;
     own.terrain_hash = terrain_hash;
     own.rate = static_cast<std::uint32_t>(options_.state_rate);
-    this->joinShards(std::string(what) + "/shards", std::move(own), options_.shard_wait);
+    this->joinShards(shards, std::move(own), options_.shard_wait);
   }
   /// @param what the node simulates, in diagnostics. @param topic of the markers.
   void start(const char* what, const char* topic, MarkerBuilder& markers) {

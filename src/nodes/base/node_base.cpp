@@ -101,6 +101,16 @@ void NodeBase::joinShards(const std::string& topic, ShardNode own, double time_l
   subscribers_.push_back(handle_.subscribe<ShardNode>(topic, MOST_SHARDS, hear));
 }
 
+void NodeBase::refuseShards(const std::string& topic) {
+  const std::string node = private_handle_.getNamespace();
+  requireNoShards(handle_, topic, node);
+  const boost::function<void(const ShardNode&)> hear = [this, topic,
+                                                        node](const ShardNode& message) {
+    acceptInput(topic, [&] { refuseShard(message, node); });
+  };
+  subscribers_.push_back(handle_.subscribe<ShardNode>(topic, MOST_SHARDS, hear));
+}
+
 void NodeBase::addShards(Status& status) {
   if (!shards_) return;
   const std::string missing = shards_->registry().describeMissing();

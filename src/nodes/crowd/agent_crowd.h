@@ -124,9 +124,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   bool hasAll(Nanoseconds stamp, const Parts& parts) const;
   void publishParts();
   void publishJoined(const AgentStates& all);
-  /// One node shows the people of all shards.
-  bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
-  bool isPart() const { return options_.shard && options_.shard->count > 1; }
 
   // Outputs.
   AgentStates agentsAt(Nanoseconds stamp) const;

@@ -116,9 +116,6 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
   GrassSample sampleAt(const Vec3& place, Nanoseconds stamp) const;
-  bool isPart() const { return options_.shard && options_.shard->count > 1; }
-  /// Whether the node shows the meadow of all shards, which shard 0 does for all.
-  bool showsAll() const { return !options_.shard || options_.shard->index == 0; }
   std::string shownTopic(const std::string& topic) const;
   /// The ground of this node, or that of all shards.
   const grass::TreadSimulation& shown() const { return whole_ ? whole_->field() : *field_; }

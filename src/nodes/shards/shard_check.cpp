@@ -8,6 +8,7 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -30,20 +31,16 @@ std::set<std::string> listPublishers(const std::string& topic) {
   return out;
 }
 
-}  // namespace
-
-void requireFit(ros::NodeHandle handle, const std::string& topic, const ShardRegistry& registry) {
+// Hears all processes that announce shards on a topic, at most LONGEST_EARLY_WAIT.
+void hearShards(ros::NodeHandle handle, const std::string& topic,
+                const std::function<void(const ShardNode&)>& take) {
   ros::CallbackQueue queue;
   handle.setCallbackQueue(&queue);
   std::set<std::string> heard;
-  std::optional<ShardNode> first, same;  // that started before: the earliest, and one of this shard
   const boost::function<void(const ros::MessageEvent<const ShardNode>&)> hear =
       [&](const ros::MessageEvent<const ShardNode>& event) {
         heard.insert(event.getPublisherName());
-        const ShardNode& message = *event.getConstMessage();
-        if (!registry.isEarlier(message)) return;
-        if (!first || message.started < first->started) first = message;
-        if (message.shard == registry.shard().index) same = message;
+        take(*event.getConstMessage());
       };
   ros::Subscriber subscriber = handle.subscribe<ShardNode>(topic, MOST_SHARDS, hear);
   const std::set<std::string> others = listPublishers(handle.resolveName(topic));
@@ -54,8 +51,34 @@ void requireFit(ros::NodeHandle handle, const std::string& topic, const ShardReg
   while (!all_heard() && ros::WallTime::now() < end && ros::ok())
     queue.callAvailable(ros::WallDuration(EARLY_POLL));
   subscriber.shutdown();
+}
+
+}  // namespace
+
+void requireFit(const ros::NodeHandle& handle, const std::string& topic,
+                const ShardRegistry& registry) {
+  std::optional<ShardNode> first, same;  // that started before: the earliest, and one of this shard
+  hearShards(handle, topic, [&](const ShardNode& message) {
+    if (!registry.isEarlier(message)) return;
+    if (!first || message.started < first->started) first = message;
+    if (message.shard == registry.shard().index) same = message;
+  });
   for (const auto& earlier : {first, same})
     if (earlier) registry.checkFit(*earlier);
+}
+
+void requireNoShards(const ros::NodeHandle& handle, const std::string& topic,
+                     const std::string& node) {
+  std::optional<ShardNode> any;
+  hearShards(handle, topic, [&](const ShardNode& message) { any = message; });
+  if (any) refuseShard(*any, node);
+}
+
+void refuseShard(const ShardNode& message, const std::string& node) {
+  throw InvalidInput(message.node + " is " + describeShard(message.shard, message.shards) +
+                     ", but this node, " + node +
+                     ", animates the whole; allowed are nodes of shards only, or "
+                     "one node of the whole");
 }
 
 }  // namespace vegetation_sim

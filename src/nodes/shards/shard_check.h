@@ -22,6 +22,15 @@ std::string listMessages() {
 
 /// Waits until all processes that announce shards on a topic have been heard, at most 2 s of wall
 /// time. @throws InvalidInput that names a node which started before this one and does not fit.
-void requireFit(ros::NodeHandle handle, const std::string& topic, const ShardRegistry& registry);
+void requireFit(const ros::NodeHandle& handle, const std::string& topic,
+                const ShardRegistry& registry);
+
+/// Waits as requireFit() does. @param node without a shard, that animates the whole.
+/// @throws InvalidInput that names the node of a shard, if there is one.
+void requireNoShards(const ros::NodeHandle& handle, const std::string& topic,
+                     const std::string& node);
+
+/// @throws InvalidInput always, since a shard and a node without one animate the same.
+[[noreturn]] void refuseShard(const ShardNode& message, const std::string& node);
 
 }  // namespace vegetation_sim

@@ -179,7 +179,8 @@ class ShardDeaths(unittest.TestCase):
                     ('twice', 1, 2, {}, 'is shard 1 of 2, as this node, /twice, is; a shard has one node'),
                     ('wrong_scene', 1, 2, dict(scenario=other), r" with the hash of the scenario's (layout|terrain) = \d+"),
                     ('wrong_rate', 1, 2, dict(state_rate=20), ' with state_rate = 30; allowed is that of this node, '
-                                                              '/wrong_rate, 20')):
+                                                              '/wrong_rate, 20'),
+                    ('all', 0, 1, {}, 'but this node, /all, animates the whole; allowed are nodes of shards only')):
                 refusal = self.refusal(kind, name, index, count, **more)
                 self.assertRegex(refusal, first)
                 self.assertRegex(refusal, words)
@@ -197,6 +198,11 @@ class ShardDeaths(unittest.TestCase):
         own = '%s %s' % (ForestLayout._md5sum, ForestState._md5sum)
         self.assertIn('/newer/forest_0 is shard 0 of 2 with the version of messages = 0123 4567; allowed is that '
                       'of this node, /newer/forest_1, ' + own, self.refusal('forest', 'forest_1', 1, 2, '/newer/'))
+
+    def test_6_a_node_of_the_whole_names_shards_that_start_beside_it(self):
+        shards = rospy.Publisher('/whole/forest/shards', ShardNode, queue_size=1, latch=True)
+        shards.publish(ShardNode(node='/whole/forest_0', shard=0, shards=2, rate=30))
+        self.warning('/whole/forest_all', '/whole/forest_0 is shard 0 of 2, but this node, /whole/forest_all, animates')
 
 
 if __name__ == '__main__':
