@@ -34,6 +34,8 @@ AgentStates AgentCrowd::agentsAt(Nanoseconds stamp) const {
 void AgentCrowd::publishPart(Nanoseconds stamp) {
   if (showsAll() && (recovers() || stamp <= joined_)) return;
   CrowdPart part;
+  part.starts = shard_->asksOthers();
+  if (part.starts && showsAll()) return;
   part.shard = options_.shard->index;
   part.people = agentsAt(stamp);
   for (const crowd::Walker& walker : shard_->waiting())

@@ -286,7 +286,10 @@ void AgentCrowd::addLatePart(const CrowdPart& part) {
   const Nanoseconds stamp = fromMsg(part.people.header.stamp);
   if (stamp <= heard_[part.shard]) return;
   heard_[part.shard] = stamp;
-  last_parts_[part.shard] = part;
+  if (part.starts)
+    last_parts_.emplace(part.shard, part);
+  else
+    last_parts_[part.shard] = part;
 }
 
 // Each shard sends its parts in order. Only ticks of this shard decide that another is silent.
@@ -310,7 +313,12 @@ void AgentCrowd::publishParts() {
     all.agents.insert(all.agents.end(), people.begin(), people.end());
   };
   Parts last = std::exchange(last_parts_, {});
-  for (auto& [owner, part] : fresh) last[owner] = std::move(part);
+  Parts before;  // of shards that start: their people of before are shown besides
+  for (auto& [owner, part] : fresh) {
+    const auto old = last.find(owner);
+    if (part.starts && old != last.end()) before[owner] = std::move(old->second);
+    last[owner] = std::move(part);
+  }
   for (const auto& entry : last) all.hash += entry.second.people.hash;
   // A person in several lists is taken from the first.
   for (const auto& entry : last)
@@ -319,10 +327,12 @@ void AgentCrowd::publishParts() {
     if (fresh.count(entry.first) > 0) add(entry.second.waiting);
   for (const auto& entry : last)
     if (fresh.count(entry.first) == 0) add(entry.second.people.agents);
+  for (const auto& entry : before) add(entry.second.people.agents);
   const auto is_before = [](const AgentState& a, const AgentState& b) { return a.id < b.id; };
   std::stable_sort(all.agents.begin(), all.agents.end(), is_before);
   const auto is_same = [](const AgentState& a, const AgentState& b) { return a.id == b.id; };
   all.agents.erase(std::unique(all.agents.begin(), all.agents.end(), is_same), all.agents.end());
+  for (auto& [owner, part] : before) last[owner] = std::move(part);
   last_parts_ = std::move(last);
   publishJoined(all);
 }
