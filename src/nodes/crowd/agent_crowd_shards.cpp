@@ -17,6 +17,15 @@ namespace {
 
 constexpr double MOST_AHEAD = 10.0;  // of the people of another shard [s]
 
+// Returns the later part with those people of the earlier one whom it has not.
+CrowdPart withOthersOf(const CrowdPart& earlier, CrowdPart later) {
+  std::set<std::uint32_t> ids;
+  for (const AgentState& agent : later.people.agents) ids.insert(agent.id);
+  for (const AgentState& agent : earlier.people.agents)
+    if (ids.count(agent.id) == 0) later.people.agents.push_back(agent);
+  return later;
+}
+
 }  // namespace
 
 void AgentCrowd::connectServices() {
@@ -286,10 +295,8 @@ void AgentCrowd::addLatePart(const CrowdPart& part) {
   const Nanoseconds stamp = fromMsg(part.people.header.stamp);
   if (stamp <= heard_[part.shard]) return;
   heard_[part.shard] = stamp;
-  if (part.starts)
-    last_parts_.emplace(part.shard, part);
-  else
-    last_parts_[part.shard] = part;
+  CrowdPart& last = last_parts_[part.shard];
+  last = part.starts ? withOthersOf(last, part) : part;
 }
 
 // Each shard sends its parts in order. Only ticks of this shard decide that another is silent.
@@ -332,7 +339,7 @@ void AgentCrowd::publishParts() {
   std::stable_sort(all.agents.begin(), all.agents.end(), is_before);
   const auto is_same = [](const AgentState& a, const AgentState& b) { return a.id == b.id; };
   all.agents.erase(std::unique(all.agents.begin(), all.agents.end(), is_same), all.agents.end());
-  for (auto& [owner, part] : before) last[owner] = std::move(part);
+  for (const auto& [owner, part] : before) last[owner] = withOthersOf(part, last[owner]);
   last_parts_ = std::move(last);
   publishJoined(all);
 }
