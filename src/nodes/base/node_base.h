@@ -137,8 +137,9 @@ class NodeBase {
   /// time_limit for the answers of other nodes, wall time [s]. @throws InvalidInput that names a
   /// node which was there before and does not fit.
   void joinShards(const std::string& topic, ShardNode own, double time_limit);
-  /// Reports nodes of shards, which a node that animates the whole has not beside it. @param topic
-  /// on which they announce themselves. @throws InvalidInput that names one which is there already.
+  /// Refuses nodes of shards, since this node animates the whole: those that start later are
+  /// reported. @param topic on which they announce themselves. @throws InvalidInput that names one
+  /// which is there already.
   void refuseShards(const std::string& topic);
   /// Returns what passes requests on; null in a node without other shards.
   ShardRequests* shards() { return shards_.get(); }

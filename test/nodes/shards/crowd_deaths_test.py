@@ -74,7 +74,7 @@ class CrowdDeaths(unittest.TestCase):
             since = [m for m in list(agents.messages) if before.header.stamp <= m.header.stamp <= after.header.stamp]
             moved = {i for one, next_ in zip(since, since[1:]) for i in jumped(one, next_)}
             self.assertLessEqual(len(moved - lost), 2)  # who crossed the border meanwhile
-            if 0 not in dead:  # which shows all, but for a tick some of those who waited at the border
+            if 0 not in dead:  # which shows all, but for some ticks a few who waited at the border
                 self.assertGreaterEqual(min(len(message.agents) for message in since), PEOPLE - WAITING)
 
 
