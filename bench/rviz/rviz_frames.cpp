@@ -40,7 +40,8 @@ namespace bench = vegetation_sim::bench;
 constexpr int WIDTH = 1280, HEIGHT = 900;  // [pixel]
 constexpr double LISTENING = 5.0;          // [s] for each topic of markers
 constexpr int BLOCK = 16;        // [pixel] edge of the blocks over which differences are averaged
-constexpr int WAITING_RATE = 3;  // [frame/s]
+constexpr int WAITING_RATE = 1;  // [frame/s]
+constexpr int LAST_FRAMES = 6;   // with the last messages
 constexpr int STEPS = 6;         // number of steps of the camera
 constexpr int FRAMES_A_STEP = 20;
 constexpr int STILL_FRAMES = 15;     // equal frames after which levels of detail count as settled
@@ -71,7 +72,7 @@ class Frames {
   void waitForFile(const char* file) {
     view_.limitRate(WAITING_RATE);
     while (!std::filesystem::exists(file)) run(0.5);
-    view_.drawFrames(2 * WAITING_RATE);
+    view_.drawFrames(LAST_FRAMES);
   }
 
   void write(const char* file) { view_.window().writeContentsToFile(file); }

@@ -11,6 +11,12 @@ namespace {
 
 constexpr double MOST_RADIUS = 1.0;  // of a person [m]
 
+Walker makeStanding(Walker walker) {
+  walker.velocity = {};
+  walker.turn_rate = 0.0;
+  return walker;
+}
+
 }  // namespace
 
 CrowdBorder CrowdShard::begin(Start start) {
@@ -170,12 +176,8 @@ void CrowdShard::beginTick() {
   for (const Walker& walker : start_)
     if (borders_.count(owners_.ownerAt(walker.position)) == 0) seen.push_back(walker);
   waiting_.clear();
-  for (const CrowdBorder::Handed& handed : handed_) {
-    if (!waits(handed)) continue;
-    waiting_.push_back(handed.walker);
-    waiting_.back().velocity = {};
-    waiting_.back().turn_rate = 0.0;
-  }
+  for (const CrowdBorder::Handed& handed : handed_)
+    if (waits(handed)) waiting_.push_back(makeStanding(handed.walker));
   seen.insert(seen.end(), waiting_.begin(), waiting_.end());
   seen.erase(std::remove_if(seen.begin(), seen.end(),
                             [this](const Walker& walker) { return crowd_->find(walker.id); }),
@@ -188,6 +190,12 @@ void CrowdShard::beginTick() {
              seen.end());
   crowd_->setOthers(std::move(seen));
   fresh_ = false;
+}
+
+std::vector<Walker> CrowdShard::standing() const {
+  std::vector<Walker> out;
+  for (const CrowdBorder::Handed& handed : handed_) out.push_back(makeStanding(handed.walker));
+  return out;
 }
 
 // A shard that runs takes people in at the tick after that in which they have crossed the border,

@@ -82,6 +82,8 @@ class CrowdShard {
   void beginTick();
   /// People who are on the way to another shard.
   const std::vector<CrowdBorder::Handed>& handed() const { return handed_; }
+  /// The same people, standing where they have crossed the border.
+  std::vector<Walker> standing() const;
   /// Those of them who had not been taken in time at the last beginTick(): they stand where they
   /// have crossed the border.
   const std::vector<Walker>& waiting() const { return waiting_; }

@@ -166,6 +166,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   HashedCache<CrowdBorder> borders_;
   std::map<Nanoseconds, Parts> parts_;          // by stamp, that wait for other shards
   std::map<std::uint32_t, Nanoseconds> heard_;  // stamp of the newest part of each shard
+  std::map<std::uint32_t, Nanoseconds> heard_borders_;
   Parts last_parts_;
   Nanoseconds joined_{0};             // stamp of the last people of all shards
   ros::Subscriber parts_subscriber_;  // of the node that joins them

@@ -38,7 +38,7 @@ void AgentCrowd::publishPart(Nanoseconds stamp) {
   if (part.starts && showsAll()) return;
   part.shard = options_.shard->index;
   part.people = agentsAt(stamp);
-  for (const crowd::Walker& walker : shard_->waiting())
+  for (const crowd::Walker& walker : shard_->standing())
     part.waiting.push_back(toMsg(walker, crowd_.terrain()));
   if (showsAll())
     addPart(part);

@@ -164,6 +164,8 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
   if (inbox_->isAnyAhead() || isAnyRunningShardSilent()) shard_->startBesideOthers();
   is_first_tick_ = false;
   for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
+    Nanoseconds& newest = heard_borders_[border->shard];
+    newest = std::max(newest, fromMsg(border->header.stamp));
     Hash hash;
     hash.add(bytesOf(*border));
     borders_.keep(hash.value(), *border);
@@ -299,12 +301,15 @@ void AgentCrowd::addLatePart(const CrowdPart& part) {
   last = part.starts ? withOthersOf(last, part) : part;
 }
 
-// Each shard sends its parts in order. Only ticks of this shard decide that another is silent.
+// Each shard sends its parts in order. Only ticks of this shard decide that another is silent. One
+// whose border has come has a part too, with those whom it has taken over.
 bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
   if (!clock_.hasBegun() || stamp > lastStamp()) return false;
   const Nanoseconds silent = clock_.grid().timeOf(clock_.tick() - MOST_PARTS);
   return std::all_of(heard_.begin(), heard_.end(), [&](const auto& shard) {
-    return parts.count(shard.first) > 0 || shard.second > stamp || shard.second < silent;
+    if (parts.count(shard.first) > 0 || shard.second > stamp) return true;
+    const auto border = heard_borders_.find(shard.first);
+    return shard.second < silent && (border == heard_borders_.end() || border->second < silent);
   });
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/parameters.h"
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "vegetation_sim/core/config/yaml.h"
@@ -24,6 +26,13 @@ bool isNumber(const XmlRpc::XmlRpcValue& value) {
 double toNumber(XmlRpc::XmlRpcValue value) {
   return value.getType() == XmlRpc::XmlRpcValue::TypeInt ? static_cast<int>(value)
                                                          : static_cast<double>(value);
+}
+
+// 20.0 is as good as 20.
+bool isWhole(const XmlRpc::XmlRpcValue& value) {
+  if (!isNumber(value)) return false;
+  const double number = toNumber(value);
+  return number == std::floor(number) && std::abs(number) <= std::numeric_limits<int>::max();
 }
 
 YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
@@ -104,9 +113,8 @@ void Parameters::number(const char* name, double& value, const char* unit, Range
 void Parameters::integer(const char* name, int& value, const char* unit, Range range) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;
-  if (found.getType() != XmlRpc::XmlRpcValue::TypeInt)
-    return wrongType(name, found, "a whole number");
-  if (inRange(name, static_cast<int>(found), unit, range)) value = static_cast<int>(found);
+  if (!isWhole(found)) return wrongType(name, found, "a whole number");
+  if (inRange(name, toNumber(found), unit, range)) value = static_cast<int>(toNumber(found));
 }
 
 void Parameters::vector(const char* name, Vec3& value, const char* unit, Range range) {
@@ -230,9 +238,8 @@ void Parameters::integers(const char* name, std::vector<int>& values, Range rang
     return wrongType(name, found, "a list of whole numbers");
   std::vector<int> read;
   for (int i = 0; i < found.size(); ++i) {
-    if (found[i].getType() != XmlRpc::XmlRpcValue::TypeInt)
-      return wrongType(name, found, "a list of whole numbers");
-    read.push_back(static_cast<int>(found[i]));
+    if (!isWhole(found[i])) return wrongType(name, found, "a list of whole numbers");
+    read.push_back(static_cast<int>(toNumber(found[i])));
     if (!inRange(name, read.back(), "", range)) return;
   }
   values = read;

@@ -93,11 +93,19 @@ TEST_F(ParametersTest, AbsentOnesKeepTheirDefaults) {
   EXPECT_EQ(asked.text, "none");
 }
 
+TEST_F(ParametersTest, WholeNumbersMayHaveAPoint) {
+  Asked asked;
+  handle_.setParam("integer", 7.0);
+  EXPECT_EQ(asked.read(handle_), "");
+  EXPECT_EQ(asked.integer, 7);
+}
+
 TEST_F(ParametersTest, ErrorsNameBadValues) {
   EXPECT_EQ(faultOf("number", 11.0), "number = 11 m is outside 0 to 10 m");
   EXPECT_EQ(faultOf("number", "two"), "number = two is not a number");
   EXPECT_EQ(faultOf("number", true), "number = 1 is not a number");
   EXPECT_EQ(faultOf("integer", 2.5), "integer = 2.5 is not a whole number");
+  EXPECT_EQ(faultOf("integer", 1e12), "integer = 1000000000000 is not a whole number");
   EXPECT_EQ(faultOf("integer", -1), "integer = -1 is outside 0 to 10");
   EXPECT_EQ(faultOf("choice", "elm"), "choice = 'elm' is none of oak, pine");
   EXPECT_EQ(faultOf("vector", list({1.0, 2.0})), "vector = {1,2} is not a list of three numbers");

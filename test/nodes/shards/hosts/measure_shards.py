@@ -57,10 +57,11 @@ wind: {primitives: [{name: breeze, kind: breeze, velocity: [4.0, 1.0, 0.0]}]}
        meadow, walkers, meadow))
 
 
-def own_memory_of(process):
-    """Returns the memory that a process has written itself [MB]: without code of libraries."""
+def memory_of(process):
+    """Returns the memory of a process [MB]: proportional set size, resident memory in which a page that several
+    processes have counts once in all."""
     with open('/proc/%d/smaps_rollup' % process.pid, encoding='utf-8') as file:
-        return sum(float(line.split()[1]) for line in file if line.startswith('Anonymous:')) * 1024 / 1e6
+        return sum(float(line.split()[1]) for line in file if line.startswith('Pss:')) * 1024 / 1e6
 
 
 def cost_of(process):
@@ -170,10 +171,10 @@ def main():
         more = [idle[process.pid] * (ticks / RATE - waited) for process in processes]
         times = [1000.0 * (cost[0] - before[process.pid] + extra) / ticks
                  for cost, process, extra in zip(costs, processes, more)]
-        print('%d shards, %s: %.2f ms of processor time for a tick in all, %.2f at most; %.0f MB each, %.0f MB of their own in all '
-              '(%.1f ms a second without ticks)' % (
-                  shards, name, sum(times), max(times), max(cost[1] for cost in costs),
-                  sum(own_memory_of(process) for process in processes),
+        print('%d shards, %s: %.2f ms of processor time for a tick in all, %.2f at most; %.0f MB of memory in all, '
+              '%.0f MB resident, %.0f at most (%.1f ms a second without ticks)' % (
+                  shards, name, sum(times), max(times), sum(memory_of(process) for process in processes),
+                  sum(cost[1] for cost in costs), max(cost[1] for cost in costs),
                   1000.0 * sum(idle[process.pid] for process in processes)))
     for listener, topics in LISTENERS.items():
         rates = [counters[topic].bytes * RATE / ticks / 1000.0 for topic in topics]
