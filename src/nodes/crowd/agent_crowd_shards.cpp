@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The services of the node, which shards answer them, and what shards send to each other.
+// The services of the node, which shards answer them, and the borders that shards send to each
+// other.
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -13,20 +14,6 @@
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr double MOST_AHEAD = 10.0;  // of the people of another shard [s]
-
-// Returns the later part with those people of the earlier one whom it has not.
-CrowdPart withOthersOf(const CrowdPart& earlier, CrowdPart later) {
-  std::set<std::uint32_t> ids;
-  for (const AgentState& agent : later.people.agents) ids.insert(agent.id);
-  for (const AgentState& agent : earlier.people.agents)
-    if (ids.count(agent.id) == 0) later.people.agents.push_back(agent);
-  return later;
-}
-
-}  // namespace
 
 void AgentCrowd::connectServices() {
   serveShared(
@@ -255,108 +242,6 @@ void AgentCrowd::publishBorder() {
   message.previous_stamp = toStamp(previous_border_.stamp);
   message.previous_border.assign(previous_border_.bytes.begin(), previous_border_.bytes.end());
   border_publisher_.publish(message);
-}
-
-void AgentCrowd::onPart(const CrowdPart& message) {
-  acceptInput("agents/parts", [&] {
-    const Nanoseconds stamp = fromMsg(message.people.header.stamp);
-    if (message.shard == 0 || message.shard >= options_.shard->count)
-      throw InvalidInput("shard = " + std::to_string(message.shard) + " is outside 1 to " +
-                         std::to_string(options_.shard->count - 1));
-    const TickGrid& grid = clock_.grid();
-    if (grid.timeOf(grid.tickAt(stamp)) != stamp)
-      throw InvalidInput("stamp = " + std::to_string(stamp) + " ns is not that of a tick");
-    const double ahead = secondsBetween(lastStamp(), stamp);
-    if (clock_.hasBegun() && ahead > MOST_AHEAD)
-      throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
-                         std::to_string(MOST_AHEAD) + " s");
-    checkFrame(message.people.header.frame_id, options_.frame_id);
-    check(message.people.agents);
-    check(message.waiting);
-    if (stamp <= joined_)
-      addLatePart(message);
-    else
-      addPart(message);
-  });
-}
-
-// The people of a tick are published once those of all shards have come, but for those of silent
-// ones, who stand as they were last.
-void AgentCrowd::addPart(const CrowdPart& part) {
-  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
-  for (std::uint32_t i = 0; i < options_.shard->count; ++i) heard_.emplace(i, stamp);
-  heard_[part.shard] = std::max(heard_[part.shard], stamp);
-  parts_[stamp][part.shard] = part;
-  while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
-  if (!clock_.hasBegun())
-    while (parts_.size() > MOST_PARTS) parts_.erase(parts_.begin());
-}
-
-// The tick of a part was published without it. The next ones wait for its shard again.
-void AgentCrowd::addLatePart(const CrowdPart& part) {
-  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
-  if (stamp <= heard_[part.shard]) return;
-  heard_[part.shard] = stamp;
-  CrowdPart& last = last_parts_[part.shard];
-  last = part.starts ? withOthersOf(last, part) : part;
-}
-
-// Each shard sends its parts in order. Only ticks of this shard decide that another is silent. One
-// whose border has come has a part too, with those whom it has taken over.
-bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
-  if (!clock_.hasBegun() || stamp > lastStamp()) return false;
-  const Nanoseconds silent = clock_.grid().timeOf(clock_.tick() - MOST_PARTS);
-  return std::all_of(heard_.begin(), heard_.end(), [&](const auto& shard) {
-    if (parts.count(shard.first) > 0 || shard.second > stamp) return true;
-    const auto border = heard_borders_.find(shard.first);
-    return shard.second < silent && (border == heard_borders_.end() || border->second < silent);
-  });
-}
-
-// Publishes the people of the earliest tick.
-void AgentCrowd::publishParts() {
-  Parts fresh = std::move(parts_.begin()->second);
-  joined_ = parts_.begin()->first;
-  parts_.erase(parts_.begin());
-  AgentStates all;
-  all.header.stamp = toStamp(joined_);
-  all.header.frame_id = options_.frame_id;
-  const auto add = [&all](const std::vector<AgentState>& people) {
-    all.agents.insert(all.agents.end(), people.begin(), people.end());
-  };
-  Parts last = std::exchange(last_parts_, {});
-  Parts before;  // of shards that start: their people of before are shown besides
-  for (auto& [owner, part] : fresh) {
-    const auto old = last.find(owner);
-    if (part.starts && old != last.end()) before[owner] = std::move(old->second);
-    last[owner] = std::move(part);
-  }
-  for (const auto& entry : last) all.hash += entry.second.people.hash;
-  // A person in several lists is taken from the first.
-  for (const auto& entry : last)
-    if (fresh.count(entry.first) > 0) add(entry.second.people.agents);
-  for (const auto& entry : last)
-    if (fresh.count(entry.first) > 0) add(entry.second.waiting);
-  for (const auto& entry : last)
-    if (fresh.count(entry.first) == 0) add(entry.second.people.agents);
-  for (const auto& entry : before) add(entry.second.people.agents);
-  const auto is_before = [](const AgentState& a, const AgentState& b) { return a.id < b.id; };
-  std::stable_sort(all.agents.begin(), all.agents.end(), is_before);
-  const auto is_same = [](const AgentState& a, const AgentState& b) { return a.id == b.id; };
-  all.agents.erase(std::unique(all.agents.begin(), all.agents.end(), is_same), all.agents.end());
-  for (const auto& [owner, part] : before) last[owner] = withOthersOf(part, last[owner]);
-  last_parts_ = std::move(last);
-  publishJoined(all);
-}
-
-void AgentCrowd::publishJoined(const AgentStates& all) {
-  state_bytes_ += ros::serialization::serializationLength(all);
-  agents_publisher_.publish(all);
-  publishNear(all);
-  if (view_publisher_.getNumSubscribers() == 0) return;
-  std::vector<crowd::Walker> walkers;
-  for (const AgentState& agent : all.agents) walkers.push_back(fromMsg(agent));
-  sendView(walkers, fromMsg(all.header.stamp));
 }
 
 }  // namespace vegetation_sim
