@@ -72,7 +72,7 @@ std::string Canopy::archived() const {
   Archive a;
   Archived copy{memory_, wind_, viewer_};
   archive(a, copy);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 Canopy::Archived Canopy::readArchived(std::string bytes, Nanoseconds shift) const {

@@ -140,7 +140,7 @@ std::string Forest::archived() const {
   Archive a;
   ForestSnapshot copy = snapshot_;
   archive(a, layout_, Grower(layout_, *terrain_, snapshot_, copy), copy);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 ForestSnapshot Forest::readArchived(std::string bytes, Nanoseconds shift) const {

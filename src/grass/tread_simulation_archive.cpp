@@ -147,7 +147,7 @@ std::string TreadSimulation::archived() const {
   Archive a;
   TreadSnapshot copy = snapshot();
   archive(a, rangeOf(layout_.map->law(), tread_.spacing()), copy);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 TreadSnapshot TreadSimulation::readArchived(std::string bytes, Nanoseconds shift) const {

@@ -39,8 +39,10 @@ void Archive::need(const char* name, std::size_t size) const {
 void Archive::bits(std::int64_t& value, std::size_t width) {
   if (!reads_) {
     const auto all = static_cast<std::uint64_t>(value);
-    for (std::size_t i = 0; i < width; ++i)
-      bytes_.push_back(static_cast<char>((all >> (8 * i)) & 0xff));
+    char bytes[sizeof all];
+    for (std::size_t i = 0; i < sizeof all; ++i)
+      bytes[i] = static_cast<char>((all >> (8 * i)) & 0xff);
+    bytes_.append(bytes, width);
     return;
   }
   need("a number", width);

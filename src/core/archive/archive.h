@@ -33,6 +33,8 @@ class Archive {
   bool reads() const { return reads_; }
   Nanoseconds shift() const { return shift_; }
   const std::string& bytes() const { return bytes_; }
+  /// The bytes, without a copy: the last use of the archive.
+  std::string takeBytes() { return std::move(bytes_); }
   /// @throws InvalidInput if bytes are left.
   void finish() const;
 

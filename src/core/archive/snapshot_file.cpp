@@ -94,17 +94,20 @@ void writeAll(const std::string& file, const std::string& bytes, bool durable) {
 }  // namespace
 
 std::string encodeSnapshot(const SnapshotFile& snapshot) {
-  SnapshotFile copy = snapshot;
+  SnapshotHeader header = snapshot.header;
   Archive a;
   std::uint32_t version = SNAPSHOT_VERSION;
   a.integer("version", version);
-  archive(a, copy.header);
-  a.text("payload", copy.payload, LARGEST_SNAPSHOT);
-  std::string out = MAGIC + a.bytes();
+  archive(a, header);
+  a.length("payload", snapshot.payload.size(), LARGEST_SNAPSHOT, 1);
+  std::string out;
+  std::uint64_t checksum = 0;
+  out.reserve(MAGIC.size() + a.bytes().size() + snapshot.payload.size() + sizeof checksum);
+  out.append(MAGIC).append(a.bytes()).append(snapshot.payload);
+  checksum = checksumOf(out);
   Archive end;
-  std::uint64_t checksum = checksumOf(out);
   end.key(checksum);
-  return out + end.bytes();
+  return out.append(end.bytes());
 }
 
 SnapshotFile decodeSnapshot(const std::string& name, const std::string& bytes,

@@ -150,7 +150,7 @@ void CrowdShard::archive(Archive& a) {
 std::string archiveBorder(CrowdBorder border) {
   Archive a;
   archiveFields(a, border);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 CrowdBorder readBorder(std::string bytes) {
@@ -165,7 +165,7 @@ std::string Crowd::archived() const {
   Archive a;
   CrowdSnapshot copy = memory_;
   archive(a, copy);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 CrowdSnapshot Crowd::readArchived(std::string bytes, Nanoseconds shift) {

@@ -168,7 +168,7 @@ class SavedNode : public NodeBase {
     std::vector<StoredEvent> waiting;
     inputs_.each([&](const Event& event) { waiting.push_back(stored(event)); });
     archive(a, waiting);
-    return {{name_, sceneHash(), lastStamp(), stateHash()}, a.bytes()};
+    return {{name_, sceneHash(), lastStamp(), stateHash()}, a.takeBytes()};
   }
 
   StoredEvent stored(const Event& event) const {

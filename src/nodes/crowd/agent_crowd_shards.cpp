@@ -197,7 +197,7 @@ std::string AgentCrowd::archiveBorder(const crowd::CrowdBorder& border) const {
   Archive a;
   a.text("border", people, LARGEST_SNAPSHOT);
   archive(a, walked);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 std::pair<crowd::CrowdBorder, AgentCrowd::Walked> AgentCrowd::readBorder(std::string bytes) {

@@ -23,7 +23,7 @@ std::string windBytes(const HashedCache<wind::Field>& winds, std::uint64_t hash)
   wind::Field wind = *found;
   Archive a;
   wind::archive(a, wind);
-  return a.bytes();
+  return a.takeBytes();
 }
 
 wind::Field windOfBytes(const std::string& bytes, Nanoseconds shift) {

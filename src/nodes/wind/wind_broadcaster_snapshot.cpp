@@ -42,7 +42,7 @@ SnapshotFile WindBroadcaster::snapshot() const {
   follower_.archive(a, followed);
   BreezeSettings breeze = breeze_;
   a.fields("breeze", breeze);
-  return {{name_, sceneHash(), clock_.now(), schedule_.field().hash()}, a.bytes()};
+  return {{name_, sceneHash(), clock_.now(), schedule_.field().hash()}, a.takeBytes()};
 }
 
 CheckedState WindBroadcaster::readPayload(const std::string& payload, Nanoseconds shift) {
