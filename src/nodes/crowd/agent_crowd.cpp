@@ -205,7 +205,7 @@ void AgentCrowd::restart() {
   if (inbox_) inbox_->jumpBack();
   parts_.clear();
   heard_.clear();
-  heard_borders_.clear();
+  running_.clear();
   last_parts_.clear();
   joined_ = 0;
   sensors_.clear();

@@ -164,9 +164,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
   HashedCache<CrowdBorder> borders_;
-  std::map<Nanoseconds, Parts> parts_;          // by stamp, that wait for other shards
-  std::map<std::uint32_t, Nanoseconds> heard_;  // stamp of the newest part of each shard
-  std::map<std::uint32_t, Nanoseconds> heard_borders_;
+  std::map<Nanoseconds, Parts> parts_;            // by stamp, that wait for other shards
+  std::map<std::uint32_t, Nanoseconds> heard_;    // stamp of the newest part of each shard
+  std::map<std::uint32_t, Nanoseconds> running_;  // stamp until which others are known to run
   Parts last_parts_;
   Nanoseconds joined_{0};             // stamp of the last people of all shards
   ros::Subscriber parts_subscriber_;  // of the node that joins them

@@ -40,6 +40,8 @@ void AgentCrowd::publishPart(Nanoseconds stamp) {
   part.people = agentsAt(stamp);
   for (const crowd::Walker& walker : shard_->standing())
     part.waiting.push_back(toMsg(walker, crowd_.terrain()));
+  for (const auto& [shard, last] : running_)
+    if (last >= clock_.grid().timeOf(clock_.tick() - MOST_PARTS)) part.running.push_back(shard);
   if (showsAll())
     addPart(part);
   else

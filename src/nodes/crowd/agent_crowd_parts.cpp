@@ -55,6 +55,10 @@ void AgentCrowd::onPart(const CrowdPart& message) {
     checkFrame(message.people.header.frame_id, options_.frame_id);
     check(message.people.agents);
     check(message.waiting);
+    for (const std::uint32_t shard : message.running)
+      if (shard >= options_.shard->count)
+        throw InvalidInput("running = " + std::to_string(shard) + " is outside 0 to " +
+                           std::to_string(options_.shard->count - 1));
     if (stamp <= joined_)
       addLatePart(message);
     else
@@ -68,6 +72,9 @@ void AgentCrowd::addPart(const CrowdPart& part) {
   const Nanoseconds stamp = fromMsg(part.people.header.stamp);
   for (std::uint32_t i = 0; i < options_.shard->count; ++i) heard_.emplace(i, stamp);
   heard_[part.shard] = std::max(heard_[part.shard], stamp);
+  if (part.shard != options_.shard->index)
+    for (const std::uint32_t shard : part.running)
+      running_[shard] = std::max(running_[shard], stamp);
   parts_[stamp][part.shard] = part;
   while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
   if (!clock_.hasBegun())
@@ -84,14 +91,15 @@ void AgentCrowd::addLatePart(const CrowdPart& part) {
 }
 
 // Each shard sends its parts in order. Only ticks of this shard decide that another is silent. One
-// whose border has come has a part too, with those whom it has taken over.
+// that is known to run has a part too, with those whom it has taken over; it may be late.
 bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
   if (!clock_.hasBegun() || stamp > lastStamp()) return false;
   const Nanoseconds silent = clock_.grid().timeOf(clock_.tick() - MOST_PARTS);
+  if (stamp < silent) return true;
   return std::all_of(heard_.begin(), heard_.end(), [&](const auto& shard) {
     if (parts.count(shard.first) > 0 || shard.second > stamp) return true;
-    const auto border = heard_borders_.find(shard.first);
-    return shard.second < silent && (border == heard_borders_.end() || border->second < silent);
+    const auto run = running_.find(shard.first);
+    return shard.second < silent && (run == running_.end() || run->second < silent);
   });
 }
 

@@ -151,7 +151,7 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
   if (inbox_->isAnyAhead() || isAnyRunningShardSilent()) shard_->startBesideOthers();
   is_first_tick_ = false;
   for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
-    Nanoseconds& newest = heard_borders_[border->shard];
+    Nanoseconds& newest = running_[border->shard];
     newest = std::max(newest, fromMsg(border->header.stamp));
     Hash hash;
     hash.add(bytesOf(*border));
