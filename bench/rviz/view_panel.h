@@ -14,6 +14,8 @@
 #include <rviz/yaml_config_reader.h>
 
 #include <QApplication>
+#include <QEventLoop>
+#include <QTimer>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -63,8 +65,9 @@ class ViewPanel {
   rviz::VisualizationManager& manager() { return *manager_; }
 
   void run(double seconds) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (ros::WallTime::now() < end) QApplication::processEvents(QEventLoop::AllEvents, 5);
+    QEventLoop loop;
+    QTimer::singleShot(static_cast<int>(1e3 * seconds), &loop, &QEventLoop::quit);
+    loop.exec();
   }
 
   /// Returns when `count` more frames have been drawn.

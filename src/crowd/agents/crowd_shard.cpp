@@ -3,6 +3,7 @@
 #include "crowd/agents/crowd_shard.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -24,6 +25,7 @@ CrowdBorder CrowdShard::begin(Start start) {
   handed_.clear();
   left_.clear();
   waiting_.clear();
+  removed_.clear();
   start_ = crowd_->takeOutside(owners_);
   crowd_->setOthers({});
   fresh_ = start == Start::FRESH;
@@ -119,9 +121,7 @@ void CrowdShard::takeIn(std::uint32_t shard, const CrowdBorder& border) {
     const bool is_new = known == borders_.end() || handed.stamp > known->second.stamp;
     if (handed.to != own || !is_new || crowd_->find(handed.walker.id)) continue;
     // Somebody who comes back before the shard between has said so is no longer on the way to it.
-    const auto on_way = std::find_if(handed_.begin(), handed_.end(), [&](const auto& other) {
-      return other.walker.id == handed.walker.id;
-    });
+    const auto on_way = findHanded(handed.walker.id);
     if (on_way != handed_.end() && on_way->stamp >= handed.stamp) continue;
     if (on_way != handed_.end()) handed_.erase(on_way);
     crowd_->takeIn(handed.walker);
@@ -170,6 +170,8 @@ std::optional<std::size_t> CrowdShard::spawnMissing(const std::vector<Spawn>& sp
 }
 
 void CrowdShard::beginTick() {
+  for (auto id = removed_.begin(); id != removed_.end();)
+    id = findHanded(*id) == handed_.end() ? removed_.erase(id) : std::next(id);
   std::vector<Walker> seen = left_;
   for (const auto& [shard, border] : borders_)
     seen.insert(seen.end(), border.near.begin(), border.near.end());
@@ -194,7 +196,8 @@ void CrowdShard::beginTick() {
 
 std::vector<Walker> CrowdShard::standing() const {
   std::vector<Walker> out;
-  for (const CrowdBorder::Handed& handed : handed_) out.push_back(makeStanding(handed.walker));
+  for (const CrowdBorder::Handed& handed : handed_)
+    if (removed_.count(handed.walker.id) == 0) out.push_back(makeStanding(handed.walker));
   return out;
 }
 
@@ -206,18 +209,22 @@ bool CrowdShard::waits(const CrowdBorder::Handed& handed) const {
   return !runs || handed.stamp < last_;
 }
 
-bool CrowdShard::removeWaiting(std::uint32_t id) {
-  const auto found = std::find_if(handed_.begin(), handed_.end(), [&](const auto& handed) {
-    return handed.walker.id == id && waits(handed);
-  });
-  if (found == handed_.end()) return false;
-  handed_.erase(found);
-  return true;
+std::vector<CrowdBorder::Handed>::const_iterator CrowdShard::findHanded(std::uint32_t id) const {
+  return std::find_if(handed_.begin(), handed_.end(),
+                      [id](const auto& handed) { return handed.walker.id == id; });
+}
+
+void CrowdShard::removeHanded(std::uint32_t id) {
+  const auto found = findHanded(id);
+  if (found == handed_.end()) return;
+  if (waits(*found))
+    handed_.erase(found);
+  else
+    removed_.insert(id);
 }
 
 bool CrowdShard::has(std::uint32_t id) const {
-  const auto is_handed = [id](const auto& handed) { return handed.walker.id == id; };
-  return crowd_->find(id) || std::any_of(handed_.begin(), handed_.end(), is_handed);
+  return crowd_->find(id) || isHanded(id);
 }
 
 bool CrowdShard::mayHave(std::uint32_t id) const {

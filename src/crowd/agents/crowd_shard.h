@@ -82,13 +82,16 @@ class CrowdShard {
   void beginTick();
   /// People who are on the way to another shard.
   const std::vector<CrowdBorder::Handed>& handed() const { return handed_; }
-  /// The same people, standing where they have crossed the border.
-  std::vector<Walker> standing() const;
+  bool isHanded(std::uint32_t id) const { return findHanded(id) != handed_.end(); }
   /// Those of them who had not been taken in time at the last beginTick(): they stand where they
   /// have crossed the border.
   const std::vector<Walker>& waiting() const { return waiting_; }
-  /// Removes a person who waits, before beginTick(). Returns false if there is none with this id.
-  bool removeWaiting(std::uint32_t id);
+  /// Those on the way who have not been removed, standing where they have crossed the border. A
+  /// shard that is late may not show them yet.
+  std::vector<Walker> standing() const;
+  /// Removes a person on the way to another shard, before beginTick(): here if the person waits,
+  /// otherwise the other shard does it.
+  void removeHanded(std::uint32_t id);
   /// Whether the person is here, on the way to another shard, or could come from one at the next
   /// tick.
   bool mayHave(std::uint32_t id) const;
@@ -103,6 +106,7 @@ class CrowdShard {
   bool hasAnswered(std::uint32_t shard) const;
   /// Whether the person is here or on the way to another shard.
   bool has(std::uint32_t id) const;
+  std::vector<CrowdBorder::Handed>::const_iterator findHanded(std::uint32_t id) const;
   bool isStarting() const { return fresh_ || starts_; }
   bool waits(const CrowdBorder::Handed& handed) const;
 
@@ -113,7 +117,8 @@ class CrowdShard {
   std::vector<Walker> left_;   // after the last tick
   std::vector<Walker> start_;  // people of other regions at their starts, until the first tick
   std::vector<Walker> waiting_;
-  Nanoseconds last_{0};  // stamp of the last tick
+  std::set<std::uint32_t> removed_;  // those on the way whom their new shard removes
+  Nanoseconds last_{0};              // stamp of the last tick
   std::uint32_t run_{0};
   bool fresh_{false};                 // no tick has run since the start
   bool starts_{false};                // until spawnMissing()

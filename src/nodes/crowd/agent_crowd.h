@@ -106,8 +106,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::vector<std::uint32_t> findOwners(FindAgents::Request& request);
   bool onFind(FindAgents::Request& request, FindAgents::Response& response);
   bool isForThisShard(const CrowdEvent& event);
-  /// Whether the person is on the way to another shard.
-  bool isHanded(std::uint32_t id) const;
   std::vector<std::uint32_t> allIds() const;
   std::uint32_t takeId();
   void hearBorders(Nanoseconds stamp);
@@ -122,6 +120,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void addPart(const CrowdPart& part);
   void addLatePart(const CrowdPart& part);
   bool hasAll(Nanoseconds stamp, const Parts& parts) const;
+  const CrowdPart* findPart(std::uint32_t shard) const;
   void publishParts();
   void publishJoined(const AgentStates& all);
 
@@ -166,7 +165,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   HashedCache<CrowdBorder> borders_;
   std::map<Nanoseconds, Parts> parts_;            // by stamp, that wait for other shards
   std::map<std::uint32_t, Nanoseconds> heard_;    // stamp of the newest part of each shard
-  std::map<std::uint32_t, Nanoseconds> running_;  // stamp until which others are known to run
+  std::map<std::uint32_t, Nanoseconds> running_;  // stamp of the last tick that heard a shard
+  std::vector<std::uint32_t> heard_now_;  // shards whose borders have come since the tick before
   Parts last_parts_;
   Nanoseconds joined_{0};             // stamp of the last people of all shards
   ros::Subscriber parts_subscriber_;  // of the node that joins them

@@ -107,7 +107,7 @@ std::size_t AgentCrowd::keepOwn(std::vector<std::uint32_t>& ids) const {
                            [this](std::uint32_t id) { return !shard_->mayHave(id); }),
             ids.end());
   return static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [this](std::uint32_t id) {
-    return crowd_.find(id) || isHanded(id);
+    return crowd_.find(id) || shard_->isHanded(id);
   }));
 }
 

@@ -40,8 +40,7 @@ void AgentCrowd::publishPart(Nanoseconds stamp) {
   part.people = agentsAt(stamp);
   for (const crowd::Walker& walker : shard_->standing())
     part.waiting.push_back(toMsg(walker, crowd_.terrain()));
-  for (const auto& [shard, last] : running_)
-    if (last >= clock_.grid().timeOf(clock_.tick() - MOST_PARTS)) part.running.push_back(shard);
+  part.heard = heard_now_;
   if (showsAll())
     addPart(part);
   else
@@ -114,8 +113,9 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
       treadOfFeet(walker, stamp, treads);
   }
   for (auto entry = trodden_.begin(); entry != trodden_.end();)
-    entry = crowd_.find(entry->first) || (shard_ && isHanded(entry->first)) ? std::next(entry)
-                                                                            : trodden_.erase(entry);
+    entry = crowd_.find(entry->first) || (shard_ && shard_->isHanded(entry->first))
+                ? std::next(entry)
+                : trodden_.erase(entry);
   if (treads.events.empty() || recovers()) return;  // those of ticks that run again were published
   treads_ += treads.events.size();
   treads_publisher_.publish(treads);

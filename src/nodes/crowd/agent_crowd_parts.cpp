@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The people of all shards, which shard 0 joins.
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -20,6 +21,18 @@ CrowdPart withOthersOf(const CrowdPart& earlier, CrowdPart later) {
   for (const AgentState& agent : earlier.people.agents)
     if (ids.count(agent.id) == 0) later.people.agents.push_back(agent);
   return later;
+}
+
+// Removes those from an old part who have been in another shard since.
+void removePeople(CrowdPart& old, const std::map<std::uint32_t, CrowdPart>& fresh,
+                  const std::map<std::uint32_t, CrowdPart>& last) {
+  std::set<std::uint32_t> ids;
+  for (const auto& entry : fresh)
+    for (const AgentState& agent : last.at(entry.first).people.agents) ids.insert(agent.id);
+  auto& people = old.people.agents;
+  people.erase(std::remove_if(people.begin(), people.end(),
+                              [&](const AgentState& agent) { return ids.count(agent.id) > 0; }),
+               people.end());
 }
 
 using PeopleLists = std::vector<const std::vector<AgentState>*>;
@@ -55,9 +68,9 @@ void AgentCrowd::onPart(const CrowdPart& message) {
     checkFrame(message.people.header.frame_id, options_.frame_id);
     check(message.people.agents);
     check(message.waiting);
-    for (const std::uint32_t shard : message.running)
+    for (const std::uint32_t shard : message.heard)
       if (shard >= options_.shard->count)
-        throw InvalidInput("running = " + std::to_string(shard) + " is outside 0 to " +
+        throw InvalidInput("heard = " + std::to_string(shard) + " is outside 0 to " +
                            std::to_string(options_.shard->count - 1));
     if (stamp <= joined_)
       addLatePart(message);
@@ -67,14 +80,13 @@ void AgentCrowd::onPart(const CrowdPart& message) {
 }
 
 // The people of a tick are published once those of all shards have come, but for those of silent
-// ones, who stand as they were last.
+// ones and of ones that are late by MOST_PARTS ticks, who stand as they were last.
 void AgentCrowd::addPart(const CrowdPart& part) {
   const Nanoseconds stamp = fromMsg(part.people.header.stamp);
   for (std::uint32_t i = 0; i < options_.shard->count; ++i) heard_.emplace(i, stamp);
   heard_[part.shard] = std::max(heard_[part.shard], stamp);
-  if (part.shard != options_.shard->index)
-    for (const std::uint32_t shard : part.running)
-      running_[shard] = std::max(running_[shard], stamp);
+  for (const std::uint32_t shard : part.heard)
+    if (shard != options_.shard->index) running_[shard] = std::max(running_[shard], stamp);
   parts_[stamp][part.shard] = part;
   while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
   if (!clock_.hasBegun())
@@ -103,6 +115,15 @@ bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
   });
 }
 
+// Returns the earliest part of a shard that has come and waits for its tick. The first ones of a
+// shard that returns may be lost while it connects.
+const CrowdPart* AgentCrowd::findPart(std::uint32_t shard) const {
+  for (const auto& tick : parts_)
+    if (const auto found = tick.second.find(shard); found != tick.second.end())
+      return &found->second;
+  return nullptr;
+}
+
 // Publishes the people of the earliest tick.
 void AgentCrowd::publishParts() {
   Parts fresh = std::move(parts_.begin()->second);
@@ -127,11 +148,12 @@ void AgentCrowd::publishParts() {
   for (const auto& [owner, part] : last)
     if (fresh.count(owner) == 0) lists.push_back(&part.people.agents);
   for (const auto& entry : before) lists.push_back(&entry.second.people.agents);
-  // The first parts of a shard that returns may be lost while it connects.
-  for (const auto& later : parts_)
-    for (const auto& [owner, part] : later.second)
-      if (fresh.count(owner) == 0) lists.push_back(&part.people.agents);
+  for (std::uint32_t i = 0; i < options_.shard->count; ++i)
+    if (const auto later = findPart(i); fresh.count(i) == 0 && later)
+      lists.push_back(&later->people.agents);
   all.agents = joinPeople(lists);
+  for (auto& [owner, part] : last)
+    if (fresh.count(owner) == 0) removePeople(part, fresh, last);
   for (const auto& [owner, part] : before) last[owner] = withOthersOf(part, last[owner]);
   last_parts_ = std::move(last);
   publishJoined(all);

@@ -96,7 +96,7 @@ bool AgentCrowd::onFind(FindAgents::Request& request, FindAgents::Response& resp
     for (const std::uint32_t id : ids) {
       const bool is_here = crowd_.find(id) != nullptr;
       if (is_here && request.has_goal) crowd_.checkGoal(id, goal);
-      if (is_here || isHanded(id)) response.ids.push_back(id);
+      if (is_here || shard_->isHanded(id)) response.ids.push_back(id);
     }
     return std::to_string(response.ids.size()) + " of them are here";
   });
@@ -106,14 +106,8 @@ bool AgentCrowd::onFind(FindAgents::Request& request, FindAgents::Response& resp
 bool AgentCrowd::isForThisShard(const CrowdEvent& event) {
   if (event.kind != CrowdEvent::REMOVE && event.kind != CrowdEvent::GOAL) return true;
   if (crowd_.find(event.id)) return true;
-  if (event.kind == CrowdEvent::REMOVE) shard_->removeWaiting(event.id);
+  if (event.kind == CrowdEvent::REMOVE) shard_->removeHanded(event.id);
   return false;
-}
-
-bool AgentCrowd::isHanded(std::uint32_t id) const {
-  const auto& all = shard_->handed();
-  return std::any_of(all.begin(), all.end(),
-                     [id](const auto& handed) { return handed.walker.id == id; });
 }
 
 // Those on the way to another shard are among them.
@@ -150,9 +144,9 @@ void AgentCrowd::hearBorders(Nanoseconds stamp) {
   const std::vector<CrowdBorder> taken = inbox_->take(state.begun ? state.stamp : 0, stamp);
   if (inbox_->isAnyAhead() || isAnyRunningShardSilent()) shard_->startBesideOthers();
   is_first_tick_ = false;
+  heard_now_.clear();
   for (auto border = taken.rbegin(); border != taken.rend(); ++border) {
-    Nanoseconds& newest = running_[border->shard];
-    newest = std::max(newest, fromMsg(border->header.stamp));
+    heard_now_.push_back(border->shard);
     Hash hash;
     hash.add(bytesOf(*border));
     borders_.keep(hash.value(), *border);

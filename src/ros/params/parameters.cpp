@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -30,9 +31,12 @@ double toNumber(XmlRpc::XmlRpcValue value) {
 
 // 20.0 is as good as 20.
 bool isWhole(const XmlRpc::XmlRpcValue& value) {
-  if (!isNumber(value)) return false;
-  const double number = toNumber(value);
-  return number == std::floor(number) && std::abs(number) <= std::numeric_limits<int>::max();
+  return isNumber(value) && toNumber(value) == std::floor(toNumber(value));
+}
+
+Range limitToInt(Range range) {
+  using Limits = std::numeric_limits<int>;
+  return {std::max<double>(range.low, Limits::min()), std::min<double>(range.high, Limits::max())};
 }
 
 YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
@@ -107,14 +111,15 @@ void Parameters::number(const char* name, double& value, const char* unit, Range
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;
   if (!isNumber(found)) return wrongType(name, found, "a number");
-  if (inRange(name, toNumber(found), unit, range)) value = toNumber(found);
+  if (inRange(name, toNumber(found), unit, limitToInt(range))) value = toNumber(found);
 }
 
 void Parameters::integer(const char* name, int& value, const char* unit, Range range) {
   XmlRpc::XmlRpcValue found;
   if (!find(name, found)) return;
   if (!isWhole(found)) return wrongType(name, found, "a whole number");
-  if (inRange(name, toNumber(found), unit, range)) value = static_cast<int>(toNumber(found));
+  if (inRange(name, toNumber(found), unit, limitToInt(range)))
+    value = static_cast<int>(toNumber(found));
 }
 
 void Parameters::vector(const char* name, Vec3& value, const char* unit, Range range) {
@@ -239,8 +244,8 @@ void Parameters::integers(const char* name, std::vector<int>& values, Range rang
   std::vector<int> read;
   for (int i = 0; i < found.size(); ++i) {
     if (!isWhole(found[i])) return wrongType(name, found, "a list of whole numbers");
+    if (!inRange(name, toNumber(found[i]), "", limitToInt(range))) return;
     read.push_back(static_cast<int>(toNumber(found[i])));
-    if (!inRange(name, read.back(), "", range)) return;
   }
   values = read;
 }

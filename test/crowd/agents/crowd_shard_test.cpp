@@ -200,6 +200,33 @@ TEST(CrowdShard, PeopleWaitForASilentShard) {
   EXPECT_NE(errorOf([] { readBorder("no border"); }), "");
 }
 
+// Who crosses the border is shown by the sender too, since the receiver may be late; but not once
+// the receiver removes this person.
+TEST(CrowdShard, WhoIsRemovedIsNotShownOnTheWay) {
+  Crowd whole(1, CrowdSettings(), {0.0, 20.0, 0.0, 20.0}, flatGround());
+  const CrowdOwners owners(whole.snapshot().area, {0, 2});
+  const Point from{5.0, 5.0}, to{15.0, 15.0};
+  const std::uint32_t first = owners.ownerAt(from), second = owners.ownerAt(to);
+  spawnAt(whole, from, to);
+  const auto here = copyOf(whole), there = copyOf(whole);
+  there->takeOutside(CrowdOwners(whole.snapshot().area, {second, 2}));
+  CrowdShard sender(*here, {first, 2}), receiver(*there, {second, 2});
+  for (Nanoseconds tick = 1; sender.handed().empty() && tick < 600; ++tick) {
+    sender.beginTick();
+    here->advance(tick * fromSeconds(PERIOD));
+    there->advance(tick * fromSeconds(PERIOD));
+    sender.endTick();
+    sender.hear(second, receiver.endTick());
+  }
+  ASSERT_EQ(sender.standing().size(), 1u);
+  EXPECT_EQ(length(sender.standing().front().velocity), 0.0);
+  sender.removeHanded(0);
+  sender.beginTick();
+  EXPECT_TRUE(sender.waiting().empty());
+  EXPECT_TRUE(sender.standing().empty());
+  EXPECT_EQ(sender.endTick().handed.size(), 1u);
+}
+
 // All people at their starts, as those of a scenario.
 std::vector<Spawn> startsOf(const Crowd& crowd) {
   std::vector<Spawn> out;
