@@ -77,12 +77,13 @@ roscore -p 11311 >"$WORK/roscore.log" 2>&1 &
 until rosparam set /use_sim_time true 2>/dev/null; do sleep 0.2; done
 scene=$ROOT/test/nodes/shards/hosts.yaml
 # usage: start_pair HOST NAMESPACE SUFFIX INDEX COUNT. Starts a shard of the forest and of the grass.
+# A request waits for less than the time without a link, so that it always ends with an error then.
 start_pair() {
   local kind name
   for kind in forest grass; do
     name=${kind}_$3
     rosparam load "$ROOT/test/nodes/shards/hosts_$kind.yaml" "$2$name"
-    rosparam set "$2$name/shard" "{index: $4, count: $5}"
+    rosparam set "$2$name/shard" "{index: $4, count: $5, wait: 3.0}"
     case $kind in forest) type=forest_animator ;; *) type=grass_field ;; esac
     start "$1" "$type" "$name" "__ns:=$2" "_scenario:=$scene" wind:=/wind tread:=/tread
   done
