@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "dynamics/integration/method.h"
 #include "reference/dynamics/paper_dynamics.h"
-#include "vegetation_sim/dynamics/integration/method.h"
 
 namespace vegetation_sim::physics {
 

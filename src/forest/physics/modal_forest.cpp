@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/archive/archive.h"
+#include "tree/growth/physics_settings.h"
 #include "tree/physical/procedural_motion.h"
 #include "tree/state/tree_hashes.h"
-#include "vegetation_sim/tree/growth/physics_settings.h"
 
 namespace vegetation_sim::forest {
 namespace {

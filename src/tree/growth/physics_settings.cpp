@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vegetation_sim/tree/growth/physics_settings.h"
+#include "tree/growth/physics_settings.h"
 
 namespace vegetation_sim::forest {
 

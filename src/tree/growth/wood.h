@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "vegetation_sim/tree/growth/physics_settings.h"
+#include "tree/growth/physics_settings.h"
 #include "vegetation_sim/tree/growth/skeleton.h"
 
 namespace vegetation_sim::forest {

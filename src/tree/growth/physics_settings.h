@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "dynamics/contact/contact_law.h"
+#include "dynamics/integration/method.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/time.h"
-#include "vegetation_sim/dynamics/contact/contact_law.h"
-#include "vegetation_sim/dynamics/integration/method.h"
 
 namespace vegetation_sim::forest {
 
