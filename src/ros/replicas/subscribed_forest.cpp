@@ -25,14 +25,18 @@ void SubscribedForest::setLayout(const ForestLayout& message) {
     requireFrame(message.header.frame_id);
     forest::Layout layout = fromMsg(message);
     // The layout of another shard, which is the same.
-    if (replica_.shards() > 1 && layout.hash() == replica_.layoutHash()) return layout_status_;
+    if (replica_.shards() > 1 && layout.hash() == replica_.layoutHash()) return describeLayout();
     replica_.setLayout(std::move(layout), loadPublishedTerrain(message.terrain));
     shard_statuses_.clear();
     frame_ = message.header.frame_id;
     ++layouts_;
-    return {true, std::to_string(replica_.layout().treeCount()) + " trees of " +
-                      std::to_string(replica_.layout().species.size()) + " species"};
+    return describeLayout();
   });
+}
+
+InputStatus SubscribedForest::describeLayout() const {
+  return {true, std::to_string(replica_.layout().treeCount()) + " trees of " +
+                    std::to_string(replica_.layout().species.size()) + " species"};
 }
 
 bool SubscribedForest::accepts(const ForestState& message) {

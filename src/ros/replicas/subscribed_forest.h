@@ -51,6 +51,7 @@ class SubscribedForest : public SubscribedReplica<ForestState> {
   InputStatus shardStatus(std::uint32_t shard, Nanoseconds now) const;
 
  private:
+  InputStatus describeLayout() const;
   forest::ForestReplica replica_;
   SubscribedWind wind_;
   int layouts_{0};

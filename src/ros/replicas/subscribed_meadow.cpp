@@ -69,7 +69,7 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     requireFrame(message.header.frame_id);
     grass::Layout layout = fromMsg(message);
     // The layout of another shard, which is the same.
-    if (ready() && replica_.shards() > 1 && layout.hash() == layout_hash_) return layout_status_;
+    if (ready() && replica_.shards() > 1 && layout.hash() == layout_hash_) return describeLayout();
     auto terrain = loadPublishedTerrain(layout.terrain);
     if (terrain->hash() != layout.terrain_hash)
       throw InvalidInput("layout: terrain = '" + layout.terrain +
@@ -88,10 +88,14 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     frame_ = message.header.frame_id;
     ++layouts_;
     ++changes_;
-    const grass::FeatureMap& map = *layout_.map;
-    return {true, std::to_string(map.tileColumns()) + " x " + std::to_string(map.tileRows()) +
-                      " tiles, " + std::to_string(map.species().size()) + " species"};
+    return describeLayout();
   });
+}
+
+InputStatus SubscribedMeadow::describeLayout() const {
+  const grass::FeatureMap& map = *layout_.map;
+  return {true, std::to_string(map.tileColumns()) + " x " + std::to_string(map.tileRows()) +
+                    " tiles, " + std::to_string(map.species().size()) + " species"};
 }
 
 void SubscribedMeadow::setColours(const GrassColours& message) {
@@ -136,13 +140,16 @@ void SubscribedMeadow::receiveUpdate(const char* input, const GrassState& messag
     if (update.layout_hash != layout_hash_)
       return {false, "Waiting: state belongs to another layout"};
     const std::uint32_t shards = replica_.shards();
+    const bool jumps =
+        parts_.count(update.shard) > 0 && update.stamp < replica_.stampOf(update.shard);
     part.in_step = replica_.apply(update, *tread_);
     if (replica_.shards() != shards) {
       parts_.clear();
       shard_statuses_.clear();
     }
     if (parts_.empty()) first_heard_ = update.stamp;
-    newest_ = update.stamp;
+    // A shard that catches up does not make those in step look silent.
+    newest_ = parts_.empty() || jumps ? update.stamp : std::max(newest_, update.stamp);
     const bool is_other_ground = parts_[update.shard].discs != part.discs;
     parts_[update.shard] = part;
     if (!part.in_step) return {false, "Waiting for a key frame: " + replica_.why()};

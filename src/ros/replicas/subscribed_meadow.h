@@ -97,6 +97,7 @@ class SubscribedMeadow : public SubscribedReplica<GrassState> {
   const std::string& why() const { return replica_.why(); }
 
  private:
+  InputStatus describeLayout() const;
   /// The last update of a shard.
   struct Part {
     bool in_step{false};

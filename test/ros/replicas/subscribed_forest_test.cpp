@@ -83,6 +83,14 @@ TEST(SubscribedForest, NamesTheShardThatIsNotInUse) {
   forest.setLayout(twoByTwo());  // by the other shard
   EXPECT_TRUE(forest.stateStatus(start).good);
   EXPECT_EQ(forest.layouts(), 1);
+  const InputStatus usual = forest.layoutStatus();
+  ForestLayout bad = twoByTwo();
+  bad.species.clear();
+  forest.setLayout(bad);
+  EXPECT_FALSE(forest.layoutStatus().good);
+  forest.setLayout(twoByTwo());
+  EXPECT_EQ(forest.layoutStatus().text, usual.text);
+  EXPECT_EQ(forest.layouts(), 1);
   const Nanoseconds later = start + 2 * SILENCE;
   forest.apply(of_shard(1, later));
   EXPECT_EQ(forest.stateStatus(later).text, "Shard 0: No message for 3 s: drawn as it was then");

@@ -74,6 +74,24 @@ TEST(SubscribedMeadow, CoversTheGroundOfAShardThatNeverBegan) {
   EXPECT_TRUE(meadow.covers(Vec3(0.0, 0.0, 0.0), 5.0, late));
 }
 
+// A shard that was without a link sends the ticks that it missed.
+TEST(SubscribedMeadow, HearsTheOthersWhileAShardCatchesUp) {
+  SubscribedMeadow meadow;
+  meadow.setLayout(smallMeadow());
+  for (std::uint32_t shard = 0; shard < 2; ++shard)
+    meadow.apply(nearGround(meadow, shard, 2, MEADOW_START));
+  const Nanoseconds late = MEADOW_START + 2 * SHARD_SILENCE;
+  meadow.apply(nearGround(meadow, 0, 2, late));
+  EXPECT_EQ(meadow.stamp(), late);
+  meadow.apply(nearGround(meadow, 1, 2, MEADOW_START + 1));
+  EXPECT_EQ(meadow.stamp(), late);
+  meadow.apply(nearGround(meadow, 1, 2, late - 1));
+  EXPECT_EQ(meadow.stamp(), late - 1);
+  for (std::uint32_t shard = 0; shard < 2; ++shard)  // the clock jumps back
+    meadow.apply(nearGround(meadow, shard, 2, MEADOW_START));
+  EXPECT_EQ(meadow.stamp(), MEADOW_START);
+}
+
 // Nodes that are started again with another number of shards are followed once the old ones are
 // silent.
 TEST(SubscribedMeadow, FollowsAnotherNumberOfShardsAfterSilence) {
