@@ -31,7 +31,8 @@ std::set<std::string> listPublishers(const std::string& topic) {
   return out;
 }
 
-// Hears all processes that announce shards on a topic, at most LONGEST_EARLY_WAIT.
+// Hears all nodes that announce shards on a topic, those of this process too, and waits at most
+// LONGEST_EARLY_WAIT.
 void hearShards(ros::NodeHandle handle, const std::string& topic,
                 const std::function<void(const ShardNode&)>& take) {
   ros::CallbackQueue queue;
@@ -48,8 +49,11 @@ void hearShards(ros::NodeHandle handle, const std::string& topic,
     return std::includes(heard.begin(), heard.end(), others.begin(), others.end());
   };
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(LONGEST_EARLY_WAIT);
-  while (!all_heard() && ros::WallTime::now() < end && ros::ok())
+  bool are_all_heard;
+  do {  // once more after all processes were heard, since one may have several nodelets
+    are_all_heard = all_heard();
     queue.callAvailable(ros::WallDuration(EARLY_POLL));
+  } while (!are_all_heard && ros::WallTime::now() < end && ros::ok());
   subscriber.shutdown();
 }
 

@@ -115,8 +115,8 @@ std::vector<ShardReply<Response>> ShardRequests::ask(
       asked[i].fault = std::current_exception();
     }
   }
-  std::vector<ShardReply<Response>> out;
-  for (std::size_t i = 0; i < shards.size(); ++i) {
+  std::vector<ShardReply<Response>> out(shards.size());
+  const auto wait_for = [&](std::size_t i) {
     Response response;
     answer(response, [&]() -> std::string {
       if (asked[i].fault) std::rethrow_exception(asked[i].fault);
@@ -129,8 +129,12 @@ std::vector<ShardReply<Response>> ShardRequests::ask(
       return {};
     });
     const bool answered = response.success != 0;
-    out.push_back({shards[i], answered ? *asked[i].response : response});
-  }
+    out[i] = {shards[i], answered ? *asked[i].response : response};
+  };
+  // This shard acts at once, however long the others take.
+  for (const bool is_own : {true, false})
+    for (std::size_t i = 0; i < shards.size(); ++i)
+      if ((shards[i] == shard().index) == is_own) wait_for(i);
   return out;
 }
 

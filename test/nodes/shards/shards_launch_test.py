@@ -7,6 +7,7 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from nodelet.srv import NodeletList, NodeletLoad
 from vegetation_sim.msg import ForestState, GrassState, ShardNode
 from vegetation_sim.srv import FindTrees, GetTree
 
@@ -52,6 +53,21 @@ class ShardsLaunch(unittest.TestCase):
         reports.wait(lambda all: {s.name.split(':')[0] for m in all for s in m.status} >= {
             'crowd_%d' % i for i in range(COUNT)}, 'reports of the crowd')
         self.assertFalse([s.message for m in reports.messages for s in m.status if 'publishers of' in s.message])
+
+    # Two nodelets of a manager are one process to the master.
+    def test_a_second_nodelet_of_the_same_shard_is_not_loaded(self):
+        for name in ('list', 'load_nodelet'):
+            rospy.wait_for_service('/manager/' + name, timeout=60.0)
+        load = rospy.ServiceProxy('/manager/load_nodelet', NodeletLoad)
+        loaded = rospy.ServiceProxy('/manager/list', NodeletList)
+        load(name='/twins/first', type='vegetation_sim/forest_animator')
+        self.assertEqual(loaded().nodelets, ['/twins/first'])
+        try:
+            answer = load(name='/twins/second', type='vegetation_sim/forest_animator')
+            self.assertFalse(answer.success)
+        except rospy.ServiceException:
+            pass
+        self.assertEqual(loaded().nodelets, ['/twins/first'])
 
 
 if __name__ == '__main__':
