@@ -48,6 +48,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
     inbox_ = std::make_unique<BorderInbox>(
         handle_, *options_.shard, std::max(SHORTEST_WAIT, options_.frame_wait), is_from_shard);
     border_publisher_ = handle_.advertise<CrowdBorder>("agents/border", 100, true);
+    if (showsAll())
+      parts_ = std::make_unique<PartJoin>(options_.shard->count, options_.shard->index);
   }
   if (showsAll()) {
     agents_publisher_ = handle_.advertise<AgentStates>("agents", 100);
@@ -203,11 +205,7 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
 void AgentCrowd::restart() {
   resetCrowd(crowd::CrowdShard::Start::FRESH);
   if (inbox_) inbox_->jumpBack();
-  parts_.clear();
-  heard_.clear();
-  running_.clear();
-  last_parts_.clear();
-  joined_ = 0;
+  if (parts_) parts_->jumpBack();
   sensors_.clear();
   publishBorder();
   begun_ = false;

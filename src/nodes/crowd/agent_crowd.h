@@ -27,9 +27,10 @@
 #include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd_shard.h"
 #include "nodes/base/event_node.h"
-#include "nodes/crowd/border_inbox.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
+#include "nodes/crowd/shards/border_inbox.h"
+#include "nodes/crowd/shards/part_join.h"
 #include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/crowd_markers.h"
 #include "ros/replicas/hashed_cache.h"
@@ -60,8 +61,6 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
 
   // Time.
   static constexpr std::uint8_t BORDER = 10;  // kind of events: see CrowdEvent
-  static constexpr int MOST_PARTS = 15;       // ticks that wait for people of other shards: a lost
-                                              // packet comes again after 0.2 s or more
   void populate(crowd::CrowdShard::Start start);
   void updateNextId();
   /// Number of walkers that wait for their stamps.
@@ -116,12 +115,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void keepBorder(const crowd::CrowdBorder& after_tick);
   void publishBorder();
   void onPart(const CrowdPart& message);
-  using Parts = std::map<std::uint32_t, CrowdPart>;  // by shard
-  void addPart(const CrowdPart& part);
-  void addLatePart(const CrowdPart& part);
-  bool hasAll(Nanoseconds stamp, const Parts& parts) const;
-  const CrowdPart* findPart(std::uint32_t shard) const;
-  void publishParts();
+  void joinPart(const CrowdPart& part);
   void publishJoined(const AgentStates& all);
 
   // Outputs.
@@ -163,13 +157,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
   HashedCache<CrowdBorder> borders_;
-  std::map<Nanoseconds, Parts> parts_;            // by stamp, that wait for other shards
-  std::map<std::uint32_t, Nanoseconds> heard_;    // stamp of the newest part of each shard
-  std::map<std::uint32_t, Nanoseconds> running_;  // stamp of the last tick that heard a shard
+  std::unique_ptr<PartJoin> parts_;       // null unless this node joins them
   std::vector<std::uint32_t> heard_now_;  // shards whose borders have come since the tick before
-  Parts last_parts_;
-  Nanoseconds joined_{0};             // stamp of the last people of all shards
-  ros::Subscriber parts_subscriber_;  // of the node that joins them
+  ros::Subscriber parts_subscriber_;      // of the node that joins them
   CrowdMarkers markers_;
   CrowdRobots robots_;
   SensorRegistry sensors_;

@@ -31,22 +31,6 @@ AgentStates AgentCrowd::agentsAt(Nanoseconds stamp) const {
   return message;
 }
 
-void AgentCrowd::publishPart(Nanoseconds stamp) {
-  if (showsAll() && (recovers() || stamp <= joined_)) return;
-  CrowdPart part;
-  part.starts = shard_->asksOthers();
-  if (part.starts && showsAll()) return;
-  part.shard = options_.shard->index;
-  part.people = agentsAt(stamp);
-  for (const crowd::Walker& walker : shard_->standing())
-    part.waiting.push_back(toMsg(walker, crowd_.terrain()));
-  part.heard = heard_now_;
-  if (showsAll())
-    addPart(part);
-  else
-    parts_publisher_.publish(part);
-}
-
 void AgentCrowd::publishAgents(Nanoseconds stamp) {
   if (isPart()) {
     publishPart(stamp);
@@ -223,6 +207,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("Deepest overlap [mm]", static_cast<int>(1e3 * crowd_.deepestOverlap()));
   status.add("People who wait for another shard", shard_ ? shard_->waiting().size() : 0);
   status.add("Borders of shards too late for their tick", inbox_ ? inbox_->late() : 0);
+  status.add("People of shards too late for their tick", parts_ ? parts_->late() : 0);
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);
   status.add("View sent [B]", view_bytes_);

@@ -1,9 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The people of all shards, which shard 0 joins.
-#include <algorithm>
-#include <map>
-#include <set>
+// The people of a shard, and of all shards, which shard 0 joins.
+#include <optional>
 #include <utility>
 
 #include "nodes/crowd/agent_crowd.h"
@@ -14,43 +12,23 @@ namespace {
 
 constexpr double MOST_AHEAD = 10.0;  // of the people of another shard [s]
 
-// Returns the later part with those people of the earlier one whom it has not.
-CrowdPart withOthersOf(const CrowdPart& earlier, CrowdPart later) {
-  std::set<std::uint32_t> ids;
-  for (const AgentState& agent : later.people.agents) ids.insert(agent.id);
-  for (const AgentState& agent : earlier.people.agents)
-    if (ids.count(agent.id) == 0) later.people.agents.push_back(agent);
-  return later;
-}
-
-// Removes those from an old part who have been in another shard since.
-void removePeople(CrowdPart& old, const std::map<std::uint32_t, CrowdPart>& fresh,
-                  const std::map<std::uint32_t, CrowdPart>& last) {
-  std::set<std::uint32_t> ids;
-  for (const auto& entry : fresh)
-    for (const AgentState& agent : last.at(entry.first).people.agents) ids.insert(agent.id);
-  auto& people = old.people.agents;
-  people.erase(std::remove_if(people.begin(), people.end(),
-                              [&](const AgentState& agent) { return ids.count(agent.id) > 0; }),
-               people.end());
-}
-
-using PeopleLists = std::vector<const std::vector<AgentState>*>;
-
-// Returns the people of all lists by rising id; one in several lists as in the first.
-std::vector<AgentState> joinPeople(const PeopleLists& lists) {
-  std::vector<AgentState> out;
-  for (const std::vector<AgentState>* list : lists)
-    out.insert(out.end(), list->begin(), list->end());
-  std::stable_sort(out.begin(), out.end(),
-                   [](const AgentState& a, const AgentState& b) { return a.id < b.id; });
-  out.erase(std::unique(out.begin(), out.end(),
-                        [](const AgentState& a, const AgentState& b) { return a.id == b.id; }),
-            out.end());
-  return out;
-}
-
 }  // namespace
+
+void AgentCrowd::publishPart(Nanoseconds stamp) {
+  if (showsAll() && (recovers() || stamp <= parts_->stamp())) return;
+  CrowdPart part;
+  part.starts = shard_->asksOthers();
+  if (part.starts && showsAll()) return;
+  part.shard = options_.shard->index;
+  part.people = agentsAt(stamp);
+  for (const crowd::Walker& walker : shard_->standing())
+    part.waiting.push_back(toMsg(walker, crowd_.terrain()));
+  part.heard = heard_now_;
+  if (showsAll())
+    joinPart(part);
+  else
+    parts_publisher_.publish(part);
+}
 
 void AgentCrowd::onPart(const CrowdPart& message) {
   acceptInput("agents/parts", [&] {
@@ -72,91 +50,22 @@ void AgentCrowd::onPart(const CrowdPart& message) {
       if (shard >= options_.shard->count)
         throw InvalidInput("heard = " + std::to_string(shard) + " is outside 0 to " +
                            std::to_string(options_.shard->count - 1));
-    if (stamp <= joined_)
-      addLatePart(message);
-    else
-      addPart(message);
+    joinPart(message);
   });
 }
 
-// The people of a tick are published once those of all shards have come, but for those of silent
-// ones and of ones that are late by MOST_PARTS ticks, who stand as they were last.
-void AgentCrowd::addPart(const CrowdPart& part) {
-  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
-  for (std::uint32_t i = 0; i < options_.shard->count; ++i) heard_.emplace(i, stamp);
-  heard_[part.shard] = std::max(heard_[part.shard], stamp);
-  for (const std::uint32_t shard : part.heard)
-    if (shard != options_.shard->index) running_[shard] = std::max(running_[shard], stamp);
-  parts_[stamp][part.shard] = part;
-  while (!parts_.empty() && hasAll(parts_.begin()->first, parts_.begin()->second)) publishParts();
-  if (!clock_.hasBegun())
-    while (parts_.size() > MOST_PARTS) parts_.erase(parts_.begin());
-}
-
-// The tick of a part was published without it. The next ones wait for its shard again.
-void AgentCrowd::addLatePart(const CrowdPart& part) {
-  const Nanoseconds stamp = fromMsg(part.people.header.stamp);
-  if (stamp <= heard_[part.shard]) return;
-  heard_[part.shard] = stamp;
-  CrowdPart& last = last_parts_[part.shard];
-  last = part.starts ? withOthersOf(last, part) : part;
-}
-
-// Each shard sends its parts in order. Only ticks of this shard decide that another is silent. One
-// that is known to run has a part too, with those whom it has taken over; it may be late.
-bool AgentCrowd::hasAll(Nanoseconds stamp, const Parts& parts) const {
-  if (!clock_.hasBegun() || stamp > lastStamp()) return false;
-  const Nanoseconds silent = clock_.grid().timeOf(clock_.tick() - MOST_PARTS);
-  if (stamp < silent) return true;
-  return std::all_of(heard_.begin(), heard_.end(), [&](const auto& shard) {
-    if (parts.count(shard.first) > 0 || shard.second > stamp) return true;
-    const auto run = running_.find(shard.first);
-    return shard.second < silent && (run == running_.end() || run->second < silent);
-  });
-}
-
-// Returns the earliest part of a shard that has come and waits for its tick. The first ones of a
-// shard that returns may be lost while it connects.
-const CrowdPart* AgentCrowd::findPart(std::uint32_t shard) const {
-  for (const auto& tick : parts_)
-    if (const auto found = tick.second.find(shard); found != tick.second.end())
-      return &found->second;
-  return nullptr;
-}
-
-// Publishes the people of the earliest tick.
-void AgentCrowd::publishParts() {
-  Parts fresh = std::move(parts_.begin()->second);
-  joined_ = parts_.begin()->first;
-  parts_.erase(parts_.begin());
-  Parts last = std::exchange(last_parts_, {});
-  Parts before;  // of shards that start: their people of before are shown besides
-  for (auto& [owner, part] : fresh) {
-    const auto old = last.find(owner);
-    if (part.starts && old != last.end()) before[owner] = std::move(old->second);
-    last[owner] = std::move(part);
+// Publishes the people of each tick that this part completes.
+void AgentCrowd::joinPart(const CrowdPart& part) {
+  parts_->setTime(lastStamp());
+  parts_->add(part);
+  while (std::optional<JoinedPeople> people = parts_->take()) {
+    AgentStates message;
+    message.header.stamp = toStamp(people->stamp);
+    message.header.frame_id = options_.frame_id;
+    message.hash = people->hash;
+    message.agents = std::move(people->agents);
+    publishJoined(message);
   }
-  AgentStates all;
-  all.header.stamp = toStamp(joined_);
-  all.header.frame_id = options_.frame_id;
-  for (const auto& entry : last) all.hash += entry.second.people.hash;
-  PeopleLists lists;
-  for (const auto& [owner, part] : last)
-    if (fresh.count(owner) > 0) lists.push_back(&part.people.agents);
-  for (const auto& [owner, part] : last)
-    if (fresh.count(owner) > 0) lists.push_back(&part.waiting);
-  for (const auto& [owner, part] : last)
-    if (fresh.count(owner) == 0) lists.push_back(&part.people.agents);
-  for (const auto& entry : before) lists.push_back(&entry.second.people.agents);
-  for (std::uint32_t i = 0; i < options_.shard->count; ++i)
-    if (const auto later = findPart(i); fresh.count(i) == 0 && later)
-      lists.push_back(&later->people.agents);
-  all.agents = joinPeople(lists);
-  for (auto& [owner, part] : last)
-    if (fresh.count(owner) == 0) removePeople(part, fresh, last);
-  for (const auto& [owner, part] : before) last[owner] = withOthersOf(part, last[owner]);
-  last_parts_ = std::move(last);
-  publishJoined(all);
 }
 
 void AgentCrowd::publishJoined(const AgentStates& all) {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/crowd/border_inbox.h"
+#include "nodes/crowd/shards/border_inbox.h"
 
 #include <ros/time.h>
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/crowd/waiting_borders.h"
+#include "nodes/crowd/shards/waiting_borders.h"
 
 namespace vegetation_sim {
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/crowd/waiting_borders.h"
+#include "nodes/crowd/shards/waiting_borders.h"
 
 #include <algorithm>
 #include <iterator>
