@@ -68,6 +68,30 @@ TEST_F(GrassDisplayTest, DrawsStripsOnEdgesOrInRows) {
   EXPECT_LT(error[1], changed(blades));
 }
 
+// S2-19: the wind moves what is drawn at each level, with the clock and only with it.
+TEST_F(GrassDisplayTest, TheWindMovesBladesRowsAndStripsOnEdges) {
+  struct Level {
+    const char* name;
+    bool blades, edges;
+  };
+  for (const Level level :
+       {Level{"blades", true, false}, Level{"rows", false, false}, Level{"edges", false, true}}) {
+    display->subProp("Single Blades")->setValue(level.blades);
+    display->subProp("Strips on Edges")->setValue(level.edges);
+    ASSERT_TRUE(rig.until([&] {
+      const view::GrassReport drawn = display->drawn();
+      return level.blades ? drawn.blades > 0 : drawn.blades == 0 && drawn.stripped > 0;
+    })) << level.name;
+    rig.frames(60);
+    const std::vector<std::uint8_t> before = rig.picture();
+    rig.frames(10);
+    EXPECT_EQ(rig.picture(), before) << level.name;
+    rig.setTime(rig.now() + 0.5);
+    EXPECT_TRUE(rig.until([&] { return changed(before) > 0.5; }))
+        << level.name << ' ' << changed(before);
+  }
+}
+
 // N7: frames that take longer than wanted have fewer blades, whatever takes the time.
 TEST_F(GrassDisplayTest, DrawsFewerBladesWhileFramesTakeTooLong) {
   display->subProp("Blades")->setValue(20000);
