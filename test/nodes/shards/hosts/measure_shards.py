@@ -25,6 +25,7 @@ from waiting import SimulatedClock, wait_for
 
 FIRST, WARM_UP, SIZE = 30000, 150, 200.0  # ticks; side of a tile [m]
 LIDAR_RANGE = 30.0  # [m]
+LOOK_PERIOD = 7  # ticks between measurements of memory, at all phases of the key frames
 FRAME_TIME, MODAL_TREES = 8.0, 64  # budgets of all shards together [ms]
 LISTENERS = {'display': ('/forest/view', '/grass/near', '/agents/view'),
              'lidar': ('/forest/state', '/grass/near', '/agents/near'),
@@ -140,7 +141,7 @@ def main():
         count = 1 if topic.startswith('/agents') else shards
         wait_for(lambda c=counter, n=count: c.publishers() >= n, 'publishers of ' + topic)
 
-    def run(first, last):
+    def run(first, last, look=lambda: None):
         for tick in range(first, last):
             if tick % 15 == 0:
                 # One place in the middle and others on the diagonal of the inner quarter, so that
@@ -157,13 +158,22 @@ def main():
             for topic in AWAITED:
                 count = 1 if topic == '/agents' else shards
                 wait_for(lambda t=topic, s=stamp, n=count: counters[t].stamps[s] >= n, '%s %s' % (topic, stamp))
+            # Buffers of messages come and go with the key frames, each second.
+            if tick % LOOK_PERIOD == 0:
+                look()
 
     run(FIRST, FIRST + WARM_UP)
     idle = idle_shares(forests + meadows)
     before, begin = {process.pid: cost_of(process)[0] for process in forests + meadows}, time.monotonic()
     for counter in counters.values():
         counter.bytes = 0
-    run(FIRST + WARM_UP, FIRST + WARM_UP + ticks)
+    memory = {'forest': [], 'grass': []}  # of all shards at a time [MB]
+
+    def look():
+        for name, processes in (('forest', forests), ('grass', meadows)):
+            memory[name].append(sum(memory_of(process) for process in processes))
+
+    run(FIRST + WARM_UP, FIRST + WARM_UP + ticks, look)
     waited = time.monotonic() - begin
     for name, processes in (('forest', forests), ('grass', meadows)):
         costs = [cost_of(process) for process in processes]
@@ -172,8 +182,9 @@ def main():
         times = [1000.0 * (cost[0] - before[process.pid] + extra) / ticks
                  for cost, process, extra in zip(costs, processes, more)]
         print('%d shards, %s: %.2f ms of processor time for a tick in all, %.2f at most; %.0f MB of memory in all, '
-              '%.0f MB resident, %.0f at most (%.1f ms a second without ticks)' % (
-                  shards, name, sum(times), max(times), sum(memory_of(process) for process in processes),
+              '%.0f MB at the highest of %d times, %.0f MB resident, %.0f at most (%.1f ms a second without ticks)' % (
+                  shards, name, sum(times), max(times), sum(memory[name]) / len(memory[name]), max(memory[name]),
+                  len(memory[name]),
                   sum(cost[1] for cost in costs), max(cost[1] for cost in costs),
                   1000.0 * sum(idle[process.pid] for process in processes)))
     for listener, topics in LISTENERS.items():
