@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
+#include <stdexcept>
 
 #include "rviz/rigs/display_checks.h"
 #include "rviz/wind/wind_display.h"
@@ -134,6 +135,33 @@ TEST_F(WindDisplayTest, LeavesNothingBehind) {
 
 TEST_F(WindDisplayTest, StandsInAnyFixedFrame) {
   expectStandsInAnyFixedFrame(rig, *display);
+}
+
+// A display that fails to draw, because memory is short for example.
+class FailingDisplay : public WindDisplay {
+ public:
+  bool fails{true};
+
+ protected:
+  void draw(Nanoseconds stamp, const view::View& view) override {
+    if (fails) throw std::runtime_error("no room for arrows");
+    WindDisplay::draw(stamp, view);
+  }
+};
+
+TEST_F(WindDisplayTest, AFaultInDrawingIsShownAndDoesNotEndRviz) {
+  auto* const failing = new FailingDisplay;  // the manager owns it
+  failing->setName("failing");
+  rig.manager().addDisplay(failing, true);
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*failing, "Drawn") == "Not drawn: no room for arrows";
+  })) << statusOf(*failing, "Drawn");
+  failing->fails = false;
+  EXPECT_TRUE(rig.until([&] { return failing->drawn().arrows > 0; }));
+  EXPECT_TRUE(rig.until([&] {
+    return statusOf(*failing, "Drawn").find("Not drawn") == std::string::npos;
+  })) << statusOf(*failing, "Drawn");
+  rig.remove(failing);
 }
 
 }  // namespace
