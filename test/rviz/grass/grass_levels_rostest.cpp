@@ -87,7 +87,7 @@ TEST_F(GrassDisplayTest, TheWindMovesBladesRowsAndStripsOnEdges) {
     rig.frames(10);
     EXPECT_EQ(rig.picture(), before) << level.name;
     rig.setTime(rig.now() + 0.5);
-    EXPECT_TRUE(rig.until([&] { return changed(before) > 0.5; }))
+    EXPECT_TRUE(rig.until([&] { return changed(before) > 0.1; }))  // of 255; strips are few
         << level.name << ' ' << changed(before);
   }
 }
