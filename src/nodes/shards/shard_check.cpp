@@ -31,9 +31,10 @@ std::set<std::string> listPublishers(const std::string& topic) {
   return out;
 }
 
-// Hears all nodes that announce shards on a topic, those of this process too, and waits at most
-// LONGEST_EARLY_WAIT.
-void hearShards(ros::NodeHandle handle, const std::string& topic,
+// Hears all processes that announce shards on a topic, and waits at most LONGEST_EARLY_WAIT.
+// @param in_process whether other nodelets of this process may announce shards: the master does not
+// know them apart, so that they have all that time, in which each announces its shard again.
+void hearShards(ros::NodeHandle handle, const std::string& topic, bool in_process,
                 const std::function<void(const ShardNode&)>& take) {
   ros::CallbackQueue queue;
   handle.setCallbackQueue(&queue);
@@ -49,11 +50,8 @@ void hearShards(ros::NodeHandle handle, const std::string& topic,
     return std::includes(heard.begin(), heard.end(), others.begin(), others.end());
   };
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(LONGEST_EARLY_WAIT);
-  bool are_all_heard;
-  do {  // once more after all processes were heard, since one may have several nodelets
-    are_all_heard = all_heard();
+  while ((in_process || !all_heard()) && ros::WallTime::now() < end && ros::ok())
     queue.callAvailable(ros::WallDuration(EARLY_POLL));
-  } while (!are_all_heard && ros::WallTime::now() < end && ros::ok());
   subscriber.shutdown();
 }
 
@@ -62,7 +60,8 @@ void hearShards(ros::NodeHandle handle, const std::string& topic,
 void requireFit(const ros::NodeHandle& handle, const std::string& topic,
                 const ShardRegistry& registry) {
   std::optional<ShardNode> first, same;  // that started before: the earliest, and one of this shard
-  hearShards(handle, topic, [&](const ShardNode& message) {
+  const bool is_nodelet = ros::this_node::getName() != registry.node();
+  hearShards(handle, topic, is_nodelet, [&](const ShardNode& message) {
     if (!registry.isEarlier(message)) return;
     if (!first || message.started < first->started) first = message;
     if (message.shard == registry.shard().index) same = message;
@@ -74,7 +73,7 @@ void requireFit(const ros::NodeHandle& handle, const std::string& topic,
 void requireNoShards(const ros::NodeHandle& handle, const std::string& topic,
                      const std::string& node) {
   std::optional<ShardNode> any;
-  hearShards(handle, topic, [&](const ShardNode& message) { any = message; });
+  hearShards(handle, topic, false, [&](const ShardNode& message) { any = message; });
   if (any) refuseShard(*any, node);
 }
 

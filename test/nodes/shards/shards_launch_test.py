@@ -2,12 +2,12 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """shards.launch starts all shards of a scenario, which find each other and publish their shares."""
+import subprocess
 import unittest
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from nodelet.srv import NodeletList, NodeletLoad
 from vegetation_sim.msg import ForestState, GrassState, ShardNode
 from vegetation_sim.srv import FindTrees, GetTree
 
@@ -56,18 +56,19 @@ class ShardsLaunch(unittest.TestCase):
 
     # Two nodelets of a manager are one process to the master.
     def test_a_second_nodelet_of_the_same_shard_is_not_loaded(self):
-        for name in ('list', 'load_nodelet'):
-            rospy.wait_for_service('/manager/' + name, timeout=60.0)
-        load = rospy.ServiceProxy('/manager/load_nodelet', NodeletLoad)
-        loaded = rospy.ServiceProxy('/manager/list', NodeletList)
-        load(name='/twins/first', type='vegetation_sim/forest_animator')
-        self.assertEqual(loaded().nodelets, ['/twins/first'])
-        try:
-            answer = load(name='/twins/second', type='vegetation_sim/forest_animator')
-            self.assertFalse(answer.success)
-        except rospy.ServiceException:
-            pass
-        self.assertEqual(loaded().nodelets, ['/twins/first'])
+        found = Log('/twins/forest/shards', ShardNode)
+        first = self.load('first')
+        found.wait(lambda all: all, 'the first nodelet')
+        self.assertNotEqual(self.load('second').wait(timeout=60.0), 0)
+        self.assertIsNone(first.poll())
+
+    def load(self, name):
+        """Returns the process that loads a forest into the manager, and ends if that fails."""
+        loader = subprocess.Popen(['rosrun', 'nodelet', 'nodelet', 'load', 'vegetation_sim/forest_animator', '/manager',
+                                   '__name:=' + name, '__ns:=/twins'])
+        self.addCleanup(loader.wait)
+        self.addCleanup(loader.terminate)
+        return loader
 
 
 if __name__ == '__main__':
