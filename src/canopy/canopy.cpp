@@ -64,10 +64,6 @@ std::uint64_t CanopySnapshot::hash() const {
   fluid.addTo(hash);
   oscillator.addTo(hash);
   hash.add(history.hash());
-  hash.add(driver.share());
-  hash.add(static_cast<std::uint64_t>(driver.front()));
-  cuts.addTo(hash);
-  hash.add(static_cast<std::uint64_t>(has_cuts));
   push.addTo(hash);
   return hash.value();
 }

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double FARTHEST = 0.4;  // limit of displacements as a share of a plant's height
 
-void addView(Hash& hash, const CutView& view) {
-  hash.add(view.position);
-  for (const double value :
-       {view.orientation.w, view.orientation.x, view.orientation.y, view.orientation.z})
-    hash.add(value);
-}
-
 // Interpolates between the four cells; the field is periodic.
 double bilinearDepth(const std::vector<double>& values, int size, double x, double y) {
   const double left = std::floor(x), low = std::floor(y), p = x - left, q = y - low;
@@ -33,12 +26,6 @@ double bilinearDepth(const std::vector<double>& values, int size, double x, doub
 }
 
 }  // namespace
-
-void CutState::addTo(Hash& hash) const {
-  addView(hash, now);
-  addView(hash, before);
-  hash.add(static_cast<std::uint64_t>(since));
-}
 
 double cutShare(const CutState& state, const CutSettings& settings, Nanoseconds stamp) {
   return smoothStep(secondsBetween(state.since, stamp) / settings.cross_fade);

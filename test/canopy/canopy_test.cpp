@@ -206,6 +206,29 @@ TEST(Canopy, CrossFadesToNewLayersAsTheViewerMoves) {
   EXPECT_LT(largest, 3.0 * usual);
 }
 
+// Sensors read the leaves as seen by the plane, so that a viewer changes nothing of them.
+TEST(Canopy, AViewerChangesNeitherTheHashNorTheLeavesOfSensors) {
+  std::vector<std::uint64_t> hashes;
+  std::vector<std::vector<Vec3>> leaves;
+  for (const bool is_watched : {false, true}) {
+    Canopy canopy(shrubScene());
+    Replica replica(canopy.layout());
+    canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
+    for (int tick = 0; tick < 120; ++tick) {
+      if (is_watched && tick >= 30)
+        canopy.setViewer(CutView{Vec3(8.0 - 0.2 * tick, 6.0, 1.5), {0.8, 0.0, 0.0, 0.6}});
+      canopy.advance(tickStamp(tick));
+      replica.apply(canopy.update(false));
+    }
+    EXPECT_EQ(canopy.snapshot().cuts.now.position.y() == 6.0, is_watched);
+    hashes.push_back(canopy.snapshot().hash());
+    leaves.push_back(tipsOf(replica.foliageOfPlane(), canopy.layout()));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  for (std::size_t i = 0; i < leaves[0].size(); ++i)
+    ASSERT_EQ(length(leaves[0][i] - leaves[1][i]), 0.0);
+}
+
 // S3-29: parameters change while it runs, and nothing jumps.
 TEST(Canopy, GoesOnMovingWhenItsMotionIsChanged) {
   Canopy canopy(shrubScene());

@@ -3,6 +3,7 @@
 """A clock that is faster than real time, steady or with jitter."""
 import threading
 import time
+from collections import Counter
 
 import rospy
 from rosgraph_msgs.msg import Clock
@@ -22,11 +23,13 @@ class FastClock(threading.Thread):
     """Publishes /clock, and the frames of a robot with it. It waits for nodes that lag behind."""
 
     def __init__(self, factor, robot, lag, random):
-        """`lag(now)` returns by how much the slowest node is behind the time `now` [s]."""
+        """`lag(now)` returns by how much the slowest node is behind the time `now` [s], and its
+        name."""
         super().__init__(daemon=True)
         self.now = START
         self.jitter = False
-        self.waited = self.longest_wait = 0.0  # for nodes [s] of wall time
+        self.waited = 0.0  # for nodes [s] of wall time
+        self.longest_waits = Counter()
         self._factor, self._robot, self._lag, self._random = factor, robot, lag, random
         # Without a queue, frames are in the sockets of the nodes before the time that needs them.
         self._publisher = publisher('/clock', Clock)
@@ -40,18 +43,19 @@ class FastClock(threading.Thread):
         while not self._ended.wait(PERIOD):
             wall = time.monotonic()
             passed, last = wall - last, wall
-            if self._lag(self.now) > MOST_LAG:
+            lag, node = self._lag(self.now)
+            if lag > MOST_LAG:
                 waits_since = waits_since or wall
                 if wall - waits_since < LONGEST_WAIT:
-                    self._count_wait(passed, wall - waits_since)
+                    self._count_wait(node, passed, wall - waits_since)
                     continue
             else:
                 waits_since = None
             self._advance(passed)
 
-    def _count_wait(self, passed, wait):
+    def _count_wait(self, node, passed, wait):
         self.waited += passed
-        self.longest_wait = max(self.longest_wait, wait)
+        self.longest_waits[node] = max(self.longest_waits[node], wait)
 
     def _advance(self, passed):
         speed = self._random.choice(SPEEDS) if self.jitter else 1.0

@@ -186,7 +186,9 @@ class Faults:
         self.outcomes.refused += refused
         self.outcomes.unanswered += failed
         self.outcomes.injected['flood of a service'] += 1
-        if refused or service.endswith('/set_parameters'):
+        if not refused and not service.endswith('/set_parameters'):
+            self.outcomes.credulous.add(service)
+        else:
             self.expect('flood of a service', node, 'refused request: ' + service, since,
                         warns_of('refused '))
 

@@ -15,6 +15,7 @@ class Outcomes:
         self.unnamed = Counter()        # kind, node and words
         self.winds_kept = self.winds_changed = 0  # when wind_broadcaster was killed
         self.requests = self.refused = self.unanswered = 0
+        self.credulous = set()  # services that refused none of the bad requests
         self.warm_since = None  # time of the clock from which memory is measured [s]
 
     def add(self, fault, node, words, took):

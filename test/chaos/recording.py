@@ -3,13 +3,15 @@
 """Records the events that the nodes publish, the inputs to which events refer, and hashes."""
 import io
 import threading
-from collections import defaultdict
+from collections import defaultdict, deque
 
 import rospy
 
 from raw_messages import (STATE_HASHES, header_of, kind_of, layout_hash_of, publisher_of, stamp_of,
                           wind_hash_of)
-from scene import SIMULATIONS
+from scene import NODES, OWNED, SIMULATIONS
+
+KEPT = 20  # newest messages of each topic that has one owner
 
 
 class NodeRecord:
@@ -75,12 +77,16 @@ class Recording:
         self.winds_of_owner = []  # hashes
         self.lost = 0             # messages between a node and this recorder
         self._numbers = {}
+        self._newest = {topic: deque(maxlen=KEPT) for topic in OWNED}
         self._subscribers = []
         for node, (state, events, _, _) in SIMULATIONS.items():
             self._subscribe(state, self._on_state, node)
             self._subscribe(events, self._on_event, node)
         self._subscribe('wind', self._on_wind)
         self._subscribe('forest/layout', self._on_layout)
+        states = {row[0] for row in SIMULATIONS.values()}
+        for topic in set(OWNED) - states - {'wind', 'forest/layout', 'grass/cover/resistance'}:
+            self._subscribe(topic, lambda *_: None)
         self._subscribe('grass/cover/resistance', self._on_cover)
 
     def connected(self):
@@ -97,6 +103,8 @@ class Recording:
             raw = message._buff
             with self.lock:
                 self._count_lost(message, topic)
+                if topic in OWNED and publisher_of(message) in NODES:
+                    self._newest[topic].append(raw)
                 if node in (None, publisher_of(message)):
                     callback(raw, publisher_of(message))
         self._subscribers.append(rospy.Subscriber('/' + topic, rospy.AnyMsg, on_message,
@@ -135,6 +143,5 @@ class Recording:
             if topic == 'wind':
                 owners = self.winds_of_owner
                 return [self.winds[owners[len(owners) // 2]], self.winds[owners[-1]]]
-            if topic == 'forest/layout':
-                return list(self.layouts.values())[-1:]
-            return []
+            newest = self._newest[topic]
+            return [newest[0], newest[-1]] if newest else []

@@ -120,9 +120,10 @@ class TickWatch:
         self.count[node] += 1
 
     def lag(self, now, excused):
-        """Returns by how much the slowest node is behind a time [s], but for excused ones."""
-        return max([now - self.newest[node] for node in NODES
-                    if self.newest[node] and node not in excused], default=0.0)
+        """Returns by how much the slowest node is behind a time [s], but for excused ones, and its
+        name."""
+        return max([(now - self.newest[node], node) for node in NODES
+                    if self.newest[node] and node not in excused], default=(0.0, None))
 
     def largest_gap(self, node, is_disturbed):
         """Returns the largest gap [s] at a time at which the node was not disturbed, and its

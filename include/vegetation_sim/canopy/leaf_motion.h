@@ -19,7 +19,6 @@ namespace vegetation_sim::canopy {
 struct CutState {
   CutView now, before;
   Nanoseconds since{0};  ///< start of the cross-fade
-  void addTo(Hash& hash) const;
 };
 
 /// Returns the share of the newer of the two cuts at a stamp, 0 to 1.

@@ -146,8 +146,24 @@ void NodeBase::addRefusals(Status& status) const {
   status.add("Requests refused", refused_requests_.count());
 }
 
+void NodeBase::countOwners(std::size_t topic, const std::string& shards) {
+  const boost::function<void(const ShardNode&)> hear = [this, topic,
+                                                        shards](const ShardNode& message) {
+    acceptInput(shards, [&] {
+      checkShard(message);
+      owned_[topic].announced = message.shards;
+    });
+  };
+  owned_[topic].shards = handle_.subscribe<ShardNode>(shards, MOST_SHARDS, hear);
+}
+
 void NodeBase::warnOfRivals(Status& status) const {
-  const std::string rivals = describeRivals(owned_);
+  std::vector<std::string> all;
+  for (const OwnedTopic& topic : owned_) {
+    const bool is_sharded = topic.shards && topic.shards.getNumPublishers() > 0;
+    all.push_back(describeRivals({topic.subscriber}, is_sharded ? topic.announced : 1));
+  }
+  const std::string rivals = joinRivals(all);
   if (!rivals.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         rivals + ": the last message wins");

@@ -50,7 +50,16 @@ class NodeBase {
   template <class Node, class Message>
   void subscribeToOwner(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
     subscribe(topic, queue, callback);
-    owned_.push_back(subscribers_.back());
+    owned_.push_back({subscribers_.back(), {}, 1});
+  }
+  /// Subscribes to a topic that each shard publishes with the same content, or one node if there
+  /// are no shards; diagnose with warnOfRivals(). @param shards topic on which they announce
+  /// themselves.
+  template <class Node, class Message>
+  void subscribeToShardedOwner(const char* topic, unsigned queue,
+                               void (Node::*callback)(const Message&), const char* shards) {
+    subscribeToOwner(topic, queue, callback);
+    countOwners(owned_.size() - 1, shards);
   }
   /// Subscribes to a topic of the node's shards. Messages of a shard from another process than its
   /// own are refused.
@@ -164,7 +173,7 @@ class NodeBase {
   void warnOfRefusals(Status& status);
   /// Adds how many inputs and requests were refused.
   void addRefusals(Status& status) const;
-  /// Warns of topics with one owner that have several publishers.
+  /// Warns of topics that have more publishers than owners.
   void warnOfRivals(Status& status) const;
   /// Warns of what has interrupted the node since the last report: a time without callbacks, as
   /// when its process is stopped, and a start that continues from a checkpoint.
@@ -194,11 +203,18 @@ class NodeBase {
 
  private:
   using SteadyTime = std::chrono::steady_clock::time_point;
+  struct OwnedTopic {
+    ros::Subscriber subscriber, shards;  // shards: none if one node owns the topic
+    std::uint32_t announced;             // number of shards
+  };
+  /// Learns from announcements of shards how many owners the topic of this index has.
+  void countOwners(std::size_t topic, const std::string& shards);
   /// Measures how long callbacks have waited.
   void beat();
   void announceShard();
 
-  std::vector<ros::Subscriber> subscribers_, owned_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<OwnedTopic> owned_;
   std::unique_ptr<ShardRequests> shards_;
   ros::Publisher shard_publisher_;
   std::vector<std::function<ros::ServiceServer()>> closed_;  // services that wait for time to begin

@@ -66,7 +66,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 }
 
 void AgentCrowd::connect() {
-  subscribe("forest/layout", 4, &AgentCrowd::onLayout);  // from any shard of the forest
+  subscribeToShardedOwner("forest/layout", 4, &AgentCrowd::onLayout, "forest/shards");
   subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
   if (showsAll()) subscribe("forest/sensors", 40, &AgentCrowd::onSensor);
   if (isPart() && showsAll())

@@ -57,6 +57,15 @@ void hearShards(ros::NodeHandle handle, const std::string& topic, bool in_proces
 
 }  // namespace
 
+void checkShard(const ShardNode& message) {
+  if (message.shards < 1 || message.shards > MOST_SHARDS)
+    throw InvalidInput("shards = " + std::to_string(message.shards) + "; allowed is 1 to " +
+                       std::to_string(MOST_SHARDS));
+  if (message.shard >= message.shards)
+    throw InvalidInput("shard = " + std::to_string(message.shard) + "; allowed is 0 to " +
+                       std::to_string(message.shards - 1));
+}
+
 void requireFit(const ros::NodeHandle& handle, const std::string& topic,
                 const ShardRegistry& registry) {
   std::optional<ShardNode> first, same;  // that started before: the earliest, and one of this shard

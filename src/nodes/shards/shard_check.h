@@ -20,6 +20,9 @@ std::string listMessages() {
   return out;
 }
 
+/// @throws InvalidInput if a message names no shard of 1 to MOST_SHARDS.
+void checkShard(const ShardNode& message);
+
 /// Waits until all processes that announce shards on a topic have been heard, at most 2 s of wall
 /// time. @throws InvalidInput that names a node which started before this one and does not fit.
 void requireFit(const ros::NodeHandle& handle, const std::string& topic,

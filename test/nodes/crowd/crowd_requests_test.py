@@ -4,21 +4,23 @@
 """Tests S2-30, S2-36 and the requirements of part 4 for the crowd through the interface of the
 node."""
 import math
+import subprocess
 import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
-from vegetation_sim.msg import AgentSpawn, CrowdEvent, CrowdView, TreadEvent
+from vegetation_sim.msg import AgentSpawn, CrowdEvent, CrowdView, ForestLayout, ShardNode, TreadEvent
 
 from crowd_rig import Cart, Crowd, at, distance
 from forest_rig import TickClock, time_of
 from given import given
 from waiting import wait_for
-from watched_node import Log
+from watched_node import Log, publisher
 
 START = 3000  # tick
 
@@ -217,6 +219,27 @@ class CrowdRequests(unittest.TestCase):
         for i in start:
             self.assertLess(distance(start[i].pose.position, again[i].pose.position), 0.1)
         self.assertGreaterEqual(self.crowd.diagnostics()['Clock jumps back'], 1)
+
+    # Shards of one forest publish equal layouts; two forests would take turns.
+    def test_8_a_second_forest_is_reported_but_not_a_second_shard(self):
+        words = '2 publishers of /forest/layout: the last message wins'
+        reports = Log('/diagnostics', DiagnosticArray)
+        wait_for(reports.connected, 'diagnostics')
+        first = publisher('/forest/layout', ForestLayout)
+        second = subprocess.Popen(['rostopic', 'pub', '/forest/layout', 'vegetation_sim/ForestLayout', '{}'])
+
+        def told(since):
+            return [words in status.message for report in reports.messages[since:]
+                    for status in report.status if status.name.endswith('agent_crowd: crowd')]
+        wait_for(lambda: any(told(0)), words)
+        shards = publisher('/forest/shards', ShardNode)
+        wait_for(shards.get_num_connections, 'the reader of shards')
+        shards.publish(ShardNode(shard=1, shards=2))
+        since = len(reports.messages)
+        wait_for(lambda: len(told(since)) > 3 and not any(told(since)[-2:]), 'no warning of two shards')
+        second.terminate()
+        second.wait()
+        first.unregister()
 
 
 if __name__ == '__main__':
