@@ -26,6 +26,7 @@ KILLS = 3             # of each node, as often as any other fault once
 JITTER = 3.0, 10.0    # duration of a jitter, and of the time between two [s] of wall time
 IN_TRANSIT = 0.4      # [s] of wall time after which all that a dead process sent has arrived
 SETTLED = 1.5         # [s] after a start; then the recorder has all connections
+JOURNAL_PERIOD = 0.2  # [s] of wall time
 IGNORED = 'Messages of other viewers'
 WARM_ROUNDS = 1       # of all faults after the last kill, before memory is measured
 PAUSES = 0.2, 1.5     # [s] of wall time between two faults
@@ -104,11 +105,17 @@ class Faults:
         begun = time.monotonic()
         wait_for(lambda: rig.ticks.arrival[node] > max(since, begun), 'the ticks of ' + node)
         self._expect_start(node, before, begun)
-        pause(SETTLED)
-        self._take_journal(node)
+        self._follow_journal(node)
         if node == 'wind_broadcaster':
             self.outcomes.add_wind(rig.recording.winds_of_owner, winds)
         disturbance[2] = time.monotonic()
+
+    def _follow_journal(self, node):
+        """Reads the journal again and again, since the next checkpoint begins it anew."""
+        end = time.monotonic() + SETTLED
+        while time.monotonic() < end:
+            self._take_journal(node)
+            pause(JOURNAL_PERIOD)
 
     def _take_journal(self, node):
         rig = self._rig
@@ -133,9 +140,8 @@ class Faults:
         pause(self._random.uniform(*STOPS))
         disturbance[2] = time.monotonic()
         self._rig.processes.signal(node, signal.SIGCONT)
+        self._follow_journal(node)  # A node that catches up drops states that it cannot send.
         self.expect('SIGSTOP', node, 'no callback ran', disturbance[2])
-        pause(SETTLED)
-        self._take_journal(node)  # A node that catches up drops states that it cannot send.
 
     def lose_frames(self, _):
         rig = self._rig

@@ -11,7 +11,7 @@ from scene import NANOSECONDS
 from watched_node import publisher
 
 COUNT = 6000        # of which 5000 have room
-AHEAD = 5.0, 25.0   # stamps after the present [s]
+AHEAD = 25.0, 55.0  # stamps after the present [s]; none falls due while others are on their way
 CONNECTION = 0.5    # [s] of wall time
 
 
