@@ -35,17 +35,18 @@ def add_memory(table, rig, since):
     if since is None:
         table.add('memory', 'not measured: the run is too short for each fault after the last kill')
         return
-    for node in NODES:
-        trend = rig.memory.trend(node, since)
-        duration = 3600.0 * trend.duration
-        judged = duration >= SHORTEST_MEASUREMENT
-        size, margin = rig.memory.samples[node][-1][2], ERRORS * trend.error
-        decided = abs(trend.slope - 1e6 * MOST_SLOPE) >= margin
-        table.add('memory of ' + node, '%+.2f +- %.2f MB/h in %.0f s, %.1f MB%s' % (
-            trend.slope / 1e6, trend.error / 1e6, duration, size / 1e6,
-            '' if decided else ', undecided'),
-                  '< %g MB/h + %g errors' % (MOST_SLOPE, ERRORS) if judged else '',
-                  not judged or trend.slope - margin < 1e6 * MOST_SLOPE)
+    for kind in rig.memory.KINDS:
+        for node in NODES:
+            trend = rig.memory.trend(node, kind, since)
+            duration = 3600.0 * trend.duration
+            judged = duration >= SHORTEST_MEASUREMENT
+            size, margin = rig.memory.samples[node, kind][-1][2], ERRORS * trend.error
+            decided = abs(trend.slope - 1e6 * MOST_SLOPE) >= margin
+            table.add('memory of %s, %s' % (node, kind), '%+.2f +- %.2f MB/h in %.0f s, %.1f MB%s' % (
+                trend.slope / 1e6, trend.error / 1e6, duration, size / 1e6,
+                '' if decided else ', undecided'),
+                      '< %g MB/h + %g errors' % (MOST_SLOPE, ERRORS) if judged else '',
+                      not judged or trend.slope - margin < 1e6 * MOST_SLOPE)
 
 
 def add_gaps(table, rig):

@@ -62,7 +62,7 @@ def make_rig(nodes, folder, factor, seed):
     def lag(now):
         return rig.ticks.lag(now, {node for node in NODES if rig.processes.is_disturbed_now(node)})
     rig.clock = FastClock(factor, rig.robot, lag, random.Random(seed + 1))
-    rig.memory = MemoryWatch(rig.processes, rig.clock)
+    rig.memory = MemoryWatch(rig.processes, rig.clock, rig.diagnosis)
     rig.visitors = Visitors(rig.clock, random.Random(seed + 2))
     wait_for(lambda: rig.clock.readers() >= len(NODES), 'the readers of the clock')
     pause(1.0)  # A publisher knows its reader a little later than the reader.

@@ -13,6 +13,7 @@ from scene import NANOSECONDS, NODES, TICKS
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
 WINDOW = 60.0    # [s] of simulated time, of which the least memory counts
+USED_MEMORY = 'Memory in use [B]'  # of the diagnostics
 LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
 
 # Slope, its standard error, and the time from the first to the last sample.
@@ -56,19 +57,30 @@ def floors_of(samples):
 
 
 class MemoryWatch(threading.Thread):
-    """Notes the anonymous memory of each node."""
+    """Notes the anonymous memory of each node, and what it reports as in use: the allocator keeps
+    freed memory, and pages of which it uses a part."""
 
-    def __init__(self, processes, clock):
+    KINDS = 'anonymous', 'in use'
+
+    def __init__(self, processes, clock, diagnosis):
         super().__init__(daemon=True)
-        self.samples = {node: [] for node in NODES}  # time [s], process, memory [bytes]
-        self._processes, self._clock, self._ended = processes, clock, threading.Event()
+        # By node and kind: time [s], process, memory [bytes].
+        self.samples = {(node, kind): [] for node in NODES for kind in self.KINDS}
+        self._processes, self._clock, self._diagnosis = processes, clock, diagnosis
+        self._ended = threading.Event()
 
     def run(self):
         while not self._ended.wait(PERIOD):
             for node in NODES:
                 found = self._processes.memory(node)
-                if found:
-                    self.samples[node].append((self._clock.now,) + found)
+                if not found:
+                    continue
+                process, size = found
+                self.samples[node, 'anonymous'].append((self._clock.now, process, size))
+                report = self._diagnosis.newest(node, USED_MEMORY)
+                if report and time.monotonic() - report.arrival < 2 * PERIOD:
+                    self.samples[node, 'in use'].append(
+                        (self._clock.now, process, int(report.values[USED_MEMORY])))
 
     def stop(self):
         self._ended.set()
@@ -77,18 +89,18 @@ class MemoryWatch(threading.Thread):
     def write(self, path):
         """Writes all samples as a table of comma-separated values."""
         with open(path, 'w', encoding='utf-8') as file:
-            file.write('node,time [s],process,anonymous memory [B]\n')
-            for node, samples in self.samples.items():
+            file.write('node,memory,time [s],process,size [B]\n')
+            for (node, kind), samples in self.samples.items():
                 for at, process, size in samples:
-                    file.write('%s,%.3f,%d,%d\n' % (node, at, process, size))
+                    file.write('%s,%s,%.3f,%d,%d\n' % (node, kind, at, process, size))
 
-    def trend(self, node, begin):
+    def trend(self, node, kind, begin):
         """Returns the trend [bytes/h of simulated time] of the last process of a node after the
         time `begin`: that of the least memory in each of equal windows of time."""
-        last = self.samples[node][-1][1]
+        samples = self.samples[node, kind]
         return trend_of([(at / 3600.0, size) for at, size in floors_of(
-            [(at, size) for at, process, size in self.samples[node]
-             if process == last and at >= begin])])
+            [(at, size) for at, process, size in samples
+             if process == samples[-1][1] and at >= begin])])
 
 
 class TickWatch:

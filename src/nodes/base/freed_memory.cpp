@@ -18,6 +18,17 @@ std::size_t countFreedBytes() {
 #endif
 }
 
+/// Bytes of small and of large blocks.
+std::size_t countUsedBytes() {
+#if __GLIBC_PREREQ(2, 33)
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+#else
+  const auto info = mallinfo();
+  return std::size_t{static_cast<unsigned>(info.uordblks)} + static_cast<unsigned>(info.hblkhd);
+#endif
+}
+
 }  // namespace
 #endif
 
@@ -25,6 +36,14 @@ void limitFreedMemory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, LARGE_BLOCK);
   mallopt(M_ARENA_MAX, ARENAS);
+#endif
+}
+
+std::size_t countUsedMemory() {
+#ifdef __GLIBC__
+  return countUsedBytes();
+#else
+  return 0;
 #endif
 }
 

@@ -24,4 +24,8 @@ void limitFreedMemory();
 /// shrinks each at its end only.
 void releaseFreedMemory();
 
+/// Returns the bytes of this process that are allocated and not freed; 0 with another library than
+/// glibc.
+std::size_t countUsedMemory();
+
 }  // namespace vegetation_sim

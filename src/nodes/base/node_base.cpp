@@ -144,6 +144,7 @@ void NodeBase::warnOfRefusals(Status& status) {
 void NodeBase::addRefusals(Status& status) const {
   status.add("Inputs refused", refusals_.count());
   status.add("Requests refused", refused_requests_.count());
+  status.add("Memory in use [B]", countUsedMemory());
 }
 
 void NodeBase::countOwners(std::size_t topic, const std::string& shards) {

@@ -171,7 +171,7 @@ class NodeBase {
   void stopCallbacks();
   /// Warns of the inputs and requests refused since the last report.
   void warnOfRefusals(Status& status);
-  /// Adds how many inputs and requests were refused.
+  /// Adds how many inputs and requests were refused, and the memory in use.
   void addRefusals(Status& status) const;
   /// Warns of topics that have more publishers than owners.
   void warnOfRivals(Status& status) const;

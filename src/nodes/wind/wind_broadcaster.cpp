@@ -1,6 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
+#include "nodes/base/freed_memory.h"
 
 #include "nodes/base/node_factory.h"
 
@@ -163,6 +164,7 @@ void WindBroadcaster::diagnose(Status& status) {
   status.add("refused inputs", refusals_.count());
   status.add("last refusal", refusals_.last());
   status.add("jumps back in time", clock_.jumps());
+  status.add("Memory in use [B]", countUsedMemory());
 }
 
 std::shared_ptr<void> createWindBroadcaster(const ros::NodeHandle& handle,
