@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
-#include "nodes/base/freed_memory.h"
 
+#include "nodes/base/freed_memory.h"
 #include "nodes/base/node_factory.h"
 
 #include "nodes/markers/wind_markers.h"
