@@ -4,7 +4,6 @@
 
 #include "nodes/base/freed_memory.h"
 #include "nodes/base/node_factory.h"
-
 #include "nodes/markers/wind_markers.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 #include "vegetation_sim/ros/conversions/wind_conversions.h"
