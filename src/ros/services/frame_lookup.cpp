@@ -70,7 +70,8 @@ geometry_msgs::TransformStamped FrameLookup::find(const std::string& frame) {
   ++late_;
   missing = missing_.find(frame);
   if (!missing->second.last)
-    throw tf2::LookupException("'" + frame + "' has no transform to '" + world_ + "' in time");
+    throw tf2::LookupException(inQuotes(frame) + " has no transform to " + inQuotes(world_) +
+                               " in time");
   return *missing->second.last;
 }
 
