@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

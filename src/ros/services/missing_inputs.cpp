@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "vegetation_sim/core/config/faults.h"
+
 namespace vegetation_sim {
 namespace {
 

@@ -1,6 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Snapshots and journals of nodes.
+#include <memory>
+
 #include "core/archive/snapshot_file.h"
 #include "crowd/agents/crowd.h"
 #include "forest/forest.h"
@@ -93,18 +95,18 @@ crowd::Crowd makeCrowd() {
 }
 
 canopy::Canopy& shrub() {
-  static canopy::Canopy canopy = [] {
+  static const std::unique_ptr<canopy::Canopy> CANOPY = [] {
     canopy::Layout layout;
     layout.motion.fluid.cells = 16;
     layout.kinds.resize(1);
     layout.kinds[0].leaves = 20;
     layout.plants.resize(1);
-    canopy::Canopy out(layout);
-    out.setWind(wind::Field({forest::makeBreeze(1, Vec3(4.0, 2.0, 0.0))}, 3));
-    out.advance(START);
+    auto out = std::make_unique<canopy::Canopy>(layout);
+    out->setWind(wind::Field({forest::makeBreeze(1, Vec3(4.0, 2.0, 0.0))}, 3));
+    out->advance(START);
     return out;
   }();
-  return canopy;
+  return *CANOPY;
 }
 
 wind::PrimitiveSchedule schedule() {
@@ -144,7 +146,7 @@ void readState(const Piece& piece) {
     case FILE_BYTES:
       return readFile(piece.bytes);
     case FOREST:
-      return static_cast<void>(smallForest().readArchived(bytes, SHIFT).hash());
+      return static_cast<void>(smallForest().readArchived(bytes, SHIFT));
     case GRASS:
       return static_cast<void>(meadow().grass.readArchived(bytes, SHIFT).hash());
     case CROWD:
