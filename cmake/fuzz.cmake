@@ -18,11 +18,16 @@ if(${PROJECT_NAME}_FUZZ)
   # Of the nodes only what the targets call, since sanitizers make compiling slow.
   target_sources(fuzz_targets PRIVATE src/nodes/base/event_queue.cpp src/nodes/base/node_options.cpp
     src/nodes/canopy/canopy_options.cpp src/nodes/canopy/plants_in_area.cpp
-    src/nodes/crowd/crowd_events.cpp src/nodes/cutters/cut_request.cpp
+    src/nodes/crowd/crowd_events.cpp src/nodes/crowd/shards/part_join.cpp
+    src/nodes/crowd/shards/waiting_borders.cpp src/nodes/cutters/cut_request.cpp
     src/nodes/cutters/cutter_follower.cpp src/nodes/cutters/followed_cutter.cpp
-    src/nodes/forest/forest_inputs.cpp src/nodes/bodies/robot_bodies_parts.cpp
+    src/nodes/forest/forest_inputs.cpp src/nodes/forest/grab_history.cpp
+    src/nodes/forest/grab_manager.cpp src/nodes/forest/grab_manager_ticks.cpp
+    src/nodes/forest/tree_requests.cpp src/nodes/bodies/robot_bodies_parts.cpp
     src/nodes/grass/cover/cover_join.cpp src/nodes/grass/cover/grass_cover.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
+    src/nodes/grass/grass_sources.cpp src/nodes/grass/near_treads.cpp
+    src/nodes/shards/shard_registry.cpp src/nodes/snapshots/event_journal.cpp
     src/nodes/snapshots/snapshot_store.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)
   # One instruction set suffices: all give the same bits. clang takes a quarter of an hour for the

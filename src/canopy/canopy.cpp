@@ -137,15 +137,15 @@ void Canopy::setBody(const forest::Body& body) {
   Faults faults;
   forest::check(body, faults);
   if (!bodies().count(body.id) && bodies().size() >= MOST_PUSHING)
-    faults.add("body '" + body.id + "' is one more than the " + std::to_string(MOST_PUSHING) +
-               " allowed");
+    faults.add("body " + inQuotes(body.id) + " is one more than the " +
+               std::to_string(MOST_PUSHING) + " allowed");
   faults.throwIfAny();
   memory_.push.bodies[body.id] = body;
 }
 
 void Canopy::removeBody(const std::string& id) {
   if (memory_.push.bodies.erase(id) == 0)
-    throw InvalidInput("body '" + id + "' is unknown", FaultCode::UNKNOWN);
+    throw InvalidInput("body " + inQuotes(id) + " is unknown", FaultCode::UNKNOWN);
 }
 
 bool Canopy::isNear(const forest::Body& body) const {

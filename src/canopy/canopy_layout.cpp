@@ -8,7 +8,7 @@
 namespace vegetation_sim::canopy {
 namespace {
 
-constexpr std::size_t MOST_KINDS = 256, MOST_HISTORY = 64U << 20;  // [B]
+constexpr std::size_t MOST_HISTORY = 64U << 20;  // [B]
 
 std::string numbered(const char* name, std::size_t index) {
   return std::string(name) + "[" + std::to_string(index) + "]: ";
@@ -46,8 +46,8 @@ void checkCrowns(const Layout& layout, Faults& faults) {
       faults.add(numbered("crowns", i) + "kind = " + std::to_string(crown.kind) +
                  " is unknown; there are " + std::to_string(layout.kinds.size()));
     else if (isRead(layout.kinds[crown.kind]))
-      faults.add(numbered("crowns", i) + "kind = '" + layout.kinds[crown.kind].name +
-                 "' is read from a file; a crown has leaves that grow");
+      faults.add(numbered("crowns", i) + "kind = " + inQuotes(layout.kinds[crown.kind].name) +
+                 " is read from a file; a crown has leaves that grow");
   }
 }
 
@@ -176,8 +176,8 @@ void check(const Layout& layout, Faults& faults) {
       faults.add(numbered("kinds", i) + "rigid has " + std::to_string(kind.rigid.size()) +
                  " characters, more than the " + std::to_string(LONGEST_RIGID_WORDS) + " allowed");
     if (isRead(kind) == kind.file.empty())
-      faults.add(numbered("kinds", i) + "file = '" + kind.file +
-                 "'; shapes mesh and slices have one, others none");
+      faults.add(numbered("kinds", i) + "file = " + inQuotes(kind.file) +
+                 "; shapes mesh and slices have one, others none");
   }
   for (const std::string& fault : groups.list()) faults.add(fault);
   checkPlants(layout, faults);

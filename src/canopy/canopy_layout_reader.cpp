@@ -43,7 +43,7 @@ void readKindKeys(YamlSection& entry, PlantKind& kind) {
 
 /// @param folder of the scenario; empty: kinds have no `base`, since the text is of a message.
 void readKinds(YamlSection& section, const std::string& folder, std::vector<PlantKind>& kinds) {
-  for (YamlSection& entry : section.sections("kinds")) {
+  for (YamlSection& entry : section.sections("kinds", MOST_KINDS)) {
     PlantKind kind;
     if (!folder.empty())
       readBase(entry, folder + "/../plants", [&](YamlSection& base) { readKindKeys(base, kind); });
@@ -53,7 +53,8 @@ void readKinds(YamlSection& section, const std::string& folder, std::vector<Plan
     entry.finish();
     kind = applyStage(kind, stage);
     for (const PlantKind& other : kinds)
-      if (other.name == kind.name) entry.fault("name", "= '" + kind.name + "' is defined twice");
+      if (other.name == kind.name)
+        entry.fault("name", "= " + inQuotes(kind.name) + " is defined twice");
     kinds.push_back(kind);
   }
 }
@@ -63,9 +64,9 @@ std::uint16_t readKind(YamlSection& section, const std::vector<PlantKind>& kinds
   section.text("kind", name);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i].name == name) return static_cast<std::uint16_t>(i);
-    known += (i ? ", " : "") + kinds[i].name;
+    if (known.size() < LONGEST_ERROR) known += (i ? ", " : "") + kinds[i].name;
   }
-  section.fault("kind", "= '" + name + "' is none of " + known);
+  section.fault("kind", "= " + inQuotes(name) + " is none of " + known);
   return 0;
 }
 

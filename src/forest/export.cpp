@@ -64,7 +64,7 @@ void writeTerrainLink(const std::string& model, std::ostream& out) {
 }
 
 // Names are free text: as RFC 4180 has it.
-std::string quoted(const std::string& text) {
+std::string csvField(const std::string& text) {
   if (text.find_first_of("\",\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -75,7 +75,7 @@ std::string quoted(const std::string& text) {
 
 void check(const ExportRule& rule, Faults& faults) {
   if (rule.name.empty() || rule.name.find_first_of("<>&\"'/") != std::string::npos)
-    faults.add("name = '" + rule.name + "' is empty or has one of <>&\"'/");
+    faults.add("name = " + inQuotes(rule.name) + " is empty or has one of <>&\"'/");
   if (!(rule.thinnest >= 0.001 && rule.thinnest <= 10.0))
     faults.add("thinnest = " + std::to_string(rule.thinnest) + " m is outside [0.001, 10]");
 }
@@ -132,7 +132,7 @@ void writeTable(const Layout& layout, const terrain::HeightMap& terrain, std::os
   out << "tree,species,x,y,z,trunk_radius,height\n";
   for (std::uint32_t id = 0; id < layout.treeCount(); ++id) {
     const Tree tree = growTree(layout, id, terrain);
-    out << id << ',' << quoted(layout.species[seedOf(layout, id).species].name) << ','
+    out << id << ',' << csvField(layout.species[seedOf(layout, id).species].name) << ','
         << tree.foot.x() << ',' << tree.foot.y() << ',' << tree.foot.z() << ','
         << tree.skeleton.branches.front().base_radius << ',' << tree.skeleton.height << '\n';
   }

@@ -21,8 +21,8 @@ void ForestReplica::setLayout(Layout layout, std::shared_ptr<const terrain::Heig
   Faults faults;
   check(layout, faults);
   if (layout.terrain_hash != terrain->hash())
-    faults.add("layout: terrain = '" + layout.terrain + "' has other heights here than where it " +
-               "was made");
+    faults.add("layout: terrain = " + inQuotes(layout.terrain, LONGEST_ADDRESS) +
+               " has other heights here than where it " + "was made");
   faults.throwIfAny();
   layout_hash_ = layout.hash();
   layout_ = std::make_shared<const Layout>(std::move(layout));

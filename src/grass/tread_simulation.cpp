@@ -47,7 +47,7 @@ TreadSourceState& TreadSimulation::sourceOf(const TreadInput& input) {
   const auto found = sources_.find(input.source);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= MOST_SOURCES)
-    throw InvalidInput("source '" + input.source + "' is one more than the " +
+    throw InvalidInput("source " + inQuotes(input.source) + " is one more than the " +
                        std::to_string(MOST_SOURCES) + " allowed at once");
   TreadSourceState& source = sources_[input.source];
   source.id = next_id_++;
@@ -95,7 +95,7 @@ TreadSimulation::StrokeSteps TreadSimulation::stepsOf(const TreadInput& stroke) 
   const double side = 2.0 * stroke.law.reach / tread_.spacing() + 3.0;
   const double nodes = (out.last - out.first + 1.0) * side * side;
   if (nodes > MOST_STROKE_NODES)
-    throw InvalidInput("stroke of source '" + stroke.source + "': " + wholeNumber(nodes) +
+    throw InvalidInput("stroke of source " + inQuotes(stroke.source) + ": " + wholeNumber(nodes) +
                        " nodes to press, more than the " + wholeNumber(MOST_STROKE_NODES) +
                        " allowed");
   return out;
@@ -160,7 +160,7 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
   press(source, input.position, stamp);
   if (tread_.state().counts.jumps == jumps) return problem;
   source.velocity = input.velocity.value_or(Vec3::Zero());
-  return "source '" + input.source + "' jumped by " + std::to_string(way) + " m in " +
+  return "source " + inQuotes(input.source) + " jumped by " + std::to_string(way) + " m in " +
          std::to_string(seconds) + " s and left no track, allowed are longest_stroke = " +
          std::to_string(treading_.longest_stroke) +
          " m and top_speed = " + std::to_string(treading_.top_speed) + " m/s";

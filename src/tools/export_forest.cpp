@@ -43,7 +43,7 @@ void writeWhole(const std::filesystem::path& file, const Write& write) {
 
 double readMetres(const std::string& name, const std::string& text) {
   if (const auto metres = parseNumber(text)) return *metres;
-  throw InvalidInput(name + " = '" + text + "' is no number of metres");
+  throw InvalidInput(name + " = " + inQuotes(text) + " is no number of metres");
 }
 
 int exportForest(int argc, char** argv) {

@@ -138,7 +138,8 @@ Field::Field(std::vector<Primitive> primitives, std::uint64_t seed)
   for (const Primitive& p : primitives_) {
     check(p, faults);
     if (!ids.insert(p.id).second)
-      faults.add("primitive '" + p.name + "': id = " + std::to_string(p.id) + " is already in use");
+      faults.add("primitive " + inQuotes(p.name) + ": id = " + std::to_string(p.id) +
+                 " is already in use");
   }
   faults.throwIfAny();
   for (const Primitive& p : primitives_) {

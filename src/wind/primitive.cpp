@@ -149,7 +149,7 @@ void check(Primitive p, Faults& faults) {
   if (p.name.size() > MAX_NAME)
     faults.add("primitive " + std::to_string(p.id) + ": name has " + std::to_string(p.name.size()) +
                " characters, allowed are " + std::to_string(MAX_NAME));
-  const std::string context = "primitive '" + p.name.substr(0, MAX_NAME) + "': ";
+  const std::string context = "primitive " + inQuotes(p.name) + ": ";
   FieldChecker used(context, faults);
   FiniteChecker unused(context, faults);
   visit({used, unused}, p);

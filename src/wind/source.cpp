@@ -14,13 +14,13 @@ void checkFrame(const Source& source, Faults& faults) {
   if (source.attached_frame.empty()) {
     if (p.kind == Kind::WAKE && p.trajectory.size() < 2 && !(p.orbit_radius > 0.0))
       faults.add(
-          "primitive '" + p.name +
-          "': attached_frame, orbit_radius and a trajectory of two way points are missing, so "
+          "primitive " + inQuotes(p.name) +
+          ": attached_frame, orbit_radius and a trajectory of two way points are missing, so "
           "the centre never moves and has no wake");
     return;
   }
-  const std::string context =
-      "primitive '" + p.name + "': attached_frame = '" + source.attached_frame + "' ";
+  const std::string context = "primitive " + inQuotes(p.name) +
+                              ": attached_frame = " + inQuotes(source.attached_frame) + " ";
   if (p.kind == Kind::BREEZE) faults.add(context + "is given, but a breeze is everywhere");
   if (!p.trajectory.empty())
     faults.add(context + "and a trajectory are both given; only one is allowed");

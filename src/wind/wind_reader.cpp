@@ -119,7 +119,7 @@ std::vector<Source> readWind(YamlSection& section, std::uint64_t& seed) {
     sources.push_back(readSource(entry));
     const std::string& name = sources.back().primitive.name;
     if (!name.empty() && !names.insert(name).second)
-      entry.fault("name", "= '" + name + "' is already in use");
+      entry.fault("name", "= " + inQuotes(name) + " is already in use");
   }
   section.finish();
   return sources;

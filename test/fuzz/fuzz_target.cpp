@@ -14,7 +14,8 @@ const std::vector<Target>& allTargets() {
     std::vector<Target> out;
     for (const auto list :
          {forestMessageTargets, meadowMessageTargets, canopyMessageTargets, worldMessageTargets,
-          eventTargets, textTargets, pictureTargets, plantFileTargets}) {
+          shardMessageTargets, requestTargets, snapshotTargets, eventTargets, textTargets,
+          pictureTargets, plantFileTargets}) {
       const std::vector<Target> targets = list();
       out.insert(out.end(), targets.begin(), targets.end());
     }

@@ -58,7 +58,7 @@ SnapshotFile decode(const std::string& bytes, const std::string& node) {
   SnapshotFile out;
   archive(a, out.header);
   if (out.header.node != node)
-    throw InvalidInput("node = '" + out.header.node + "', allowed is '" + node + "'");
+    throw InvalidInput("node = " + inQuotes(out.header.node) + ", allowed is " + inQuotes(node));
   a.text("payload", out.payload, LARGEST_SNAPSHOT);
   a.finish();
   return out;
@@ -137,8 +137,8 @@ void checkPlainName(const char* what, const std::string& name) {
   const bool plain = !name.empty() && name.size() <= 64 && name[0] != '.' &&
                      std::all_of(name.begin(), name.end(), allowed);
   if (!plain)
-    throw InvalidInput(std::string(what) + " = '" + name.substr(0, 64) +
-                       "', allowed are 1 to 64 letters, digits, '_', '-' and '.', not at the "
+    throw InvalidInput(std::string(what) + " = " + inQuotes(name) +
+                       ", allowed are 1 to 64 letters, digits, '_', '-' and '.', not at the "
                        "beginning a '.'");
 }
 

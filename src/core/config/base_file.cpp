@@ -12,8 +12,8 @@ void readBase(YamlSection& map, const std::string& folder,
   map.text("base", name);
   if (name.empty()) return;
   if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-    return map.fault("base", "= '" + name.substr(0, 60) +
-                                 "' has other letters than a to z, 0 to 9 "
+    return map.fault("base", "= " + inQuotes(name) +
+                                 " has other letters than a to z, 0 to 9 "
                                  "and _");
   const std::string file =
       (std::filesystem::path(folder) / (name + ".yaml")).lexically_normal().string();
@@ -22,9 +22,10 @@ void readBase(YamlSection& map, const std::string& folder,
     YamlSection base(loadYamlFile(file), file, faults);
     read(base);
     base.finish();
-    for (const std::string& fault : faults.list()) map.fault("base", "= '" + name + "': " + fault);
+    for (const std::string& fault : faults.list())
+      map.fault("base", "= " + inQuotes(name) + ": " + fault);
   } catch (const InvalidInput& error) {
-    map.fault("base", "= '" + name + "': " + error.what());
+    map.fault("base", "= " + inQuotes(name) + ": " + error.what());
   }
 }
 

@@ -27,7 +27,7 @@ void checkNames(const NamedValues& named, const std::map<std::string, double>& k
     faults.add("event: " + std::to_string(named.names.size()) + " names for " +
                std::to_string(named.values.size()) + " values");
   for (const std::string& name : named.names)
-    if (!known.count(name)) faults.add("event: " + name + " is not known");
+    if (!known.count(name)) faults.add("event: " + shortened(name) + " is not known");
 }
 
 }  // namespace vegetation_sim

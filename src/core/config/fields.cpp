@@ -7,16 +7,6 @@
 
 namespace vegetation_sim {
 
-std::string Faults::text() const {
-  std::string out;
-  for (const auto& fault : list_) out += (out.empty() ? "" : "\n") + fault;
-  return out;
-}
-
-void Faults::throwIfAny() const {
-  if (!empty()) throw InvalidInput(text(), code_);
-}
-
 std::string rangeFault(const std::string& name, double value, const char* unit, Range range) {
   if (std::isfinite(value) && value >= range.low && value <= range.high) return {};
   const std::string suffix = *unit ? std::string(" ") + unit : "";

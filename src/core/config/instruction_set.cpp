@@ -46,7 +46,7 @@ void forceInstructionSet(const std::string& name) {
       break;
     }
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  if (!found) throw InvalidInput("instruction set '" + name + "' is not offered here");
+  if (!found) throw InvalidInput("instruction set " + inQuotes(name) + " is not offered here");
 }
 
 std::string chosenInstructionSet() {

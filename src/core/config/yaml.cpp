@@ -13,16 +13,11 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::uintmax_t LARGEST_FILE = 4u << 20;
-// Limits of a text in a message [bytes] and of its separators , : [ { ? and line ends: a parsed
-// value takes some hundred bytes.
-constexpr std::size_t LARGEST_TEXT = 1u << 20, MOST_MARKS = 200000;
+// Limit of the separators , : [ { ? and line ends of a text in a message: a parsed value takes some
+// hundred bytes.
+constexpr std::size_t MOST_MARKS = 200000;
 // Limit of values within values; yaml-cpp 0.6 has none and its stack ends.
 constexpr std::size_t MOST_DEPTH = 100;
-constexpr std::size_t LONGEST_SHOWN = 60;  // letters of a value in a fault
-
-std::string shortened(const std::string& text) {
-  return text.size() <= LONGEST_SHOWN ? text : text.substr(0, LONGEST_SHOWN) + "...";
-}
 
 // Each value has a mark before or after it, so this is a bound of the number of values.
 std::size_t countMarks(const std::string& text) {
@@ -46,7 +41,7 @@ std::size_t boundDepth(const std::string& text) {
 }
 
 std::string shown(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + shortened(node.Scalar()) + "'";
+  if (node.IsScalar()) return inQuotes(node.Scalar());
   return node.IsMap() ? "a map" : node.IsSequence() ? "a list" : "nothing";
 }
 
@@ -142,7 +137,7 @@ void YamlSection::choice(const char* name, int& value, const std::vector<std::st
     }
     allowed += (i ? ", " : "") + names[i];
   }
-  fault(name, "= '" + shortened(word) + "' is none of " + allowed);
+  fault(name, "= " + inQuotes(word) + " is none of " + allowed);
 }
 
 void YamlSection::text(const char* name, std::string& value) {
@@ -162,13 +157,18 @@ YamlSection YamlSection::section(const char* name) {
   return YamlSection(has(name) ? node_[name] : YAML::Node(), path_ + ": " + name, *faults_);
 }
 
-std::vector<YamlSection> YamlSection::sections(const char* name) {
+std::vector<YamlSection> YamlSection::sections(const char* name, std::size_t most) {
   asked_.insert(name);
   std::vector<YamlSection> out;
   if (!has(name)) return out;
   const YAML::Node list = node_[name];
   if (!list.IsSequence()) {
     fault(name, "= " + shown(list) + " is not a list");
+    return out;
+  }
+  if (list.size() > most) {
+    fault(name, "has " + std::to_string(list.size()) + " entries, more than the " +
+                    std::to_string(most) + " allowed");
     return out;
   }
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -182,19 +182,39 @@ void YamlSection::finish() {
   for (const auto& entry : node_)
     if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second)
       fault(shortened(entry.first.Scalar()), "is given twice");
+  std::string known;
+  for (const auto& name : asked_) known += (known.empty() ? "" : ", ") + name;
   for (const auto& entry : node_) {
+    if (faults_->isFull()) return;  // a text of a message may have any number of keys
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
     if (asked_.count(key)) continue;
-    std::string known;
-    for (const auto& name : asked_) known += (known.empty() ? "" : ", ") + name;
     fault(shortened(key), "is not a known key; known are " + known);
   }
 }
 
+bool keepLimits(const char* what, const std::vector<NamedText>& texts, Faults& faults) {
+  bool out = true;
+  std::size_t sum = 0;
+  const auto add = [&](const std::string& fault) {
+    faults.add(what + fault);
+    out = false;
+  };
+  for (const auto& [name, text] : texts) {
+    sum += text.size();
+    if (name.size() > LONGEST_YAML_NAME)
+      add(" " + inQuotes(name) + ": name has " + std::to_string(name.size()) +
+          " letters, more than the " + std::to_string(LONGEST_YAML_NAME) + " allowed");
+  }
+  if (sum > LARGEST_YAML_TEXT)
+    add(": rules have " + std::to_string(sum) + " bytes together, more than the " +
+        std::to_string(LARGEST_YAML_TEXT) + " allowed");
+  return out;
+}
+
 YAML::Node parseYaml(const std::string& text, const std::string& name) {
-  if (text.size() > LARGEST_TEXT)
+  if (text.size() > LARGEST_YAML_TEXT)
     throw InvalidInput(name + ": " + std::to_string(text.size()) + " bytes, more than the " +
-                       std::to_string(LARGEST_TEXT) + " allowed");
+                       std::to_string(LARGEST_YAML_TEXT) + " allowed");
   if (const std::size_t marks = countMarks(text); marks > MOST_MARKS)
     throw InvalidInput(name + ": " + std::to_string(marks) +
                        " signs that separate values, more than the " + std::to_string(MOST_MARKS) +

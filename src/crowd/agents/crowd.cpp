@@ -141,13 +141,22 @@ void Crowd::setSettings(const CrowdSettings& settings) {
   if (!same) setObstacles(still_.obstacles());
 }
 
+void Crowd::checkRoom(const char* context, std::uint32_t id) const {
+  if (memory_.walkers.size() >= MOST_WALKERS)
+    throw InvalidInput(std::string(context) + "walkers = " + std::to_string(MOST_WALKERS) +
+                           " are there, which is the most allowed",
+                       FaultCode::NO_ROOM);
+  if (id > LARGEST_ID)
+    throw InvalidInput(std::string(context) + "id = " + std::to_string(id) + " is outside 0 to " +
+                           std::to_string(LARGEST_ID),
+                       FaultCode::NO_ROOM);
+  if (find(id)) throw InvalidInput(context + ("walker " + std::to_string(id)) + " exists already");
+}
+
 std::uint32_t Crowd::spawn(const Spawn& spawn, std::uint32_t id) {
   checkFields("spawn: ", spawn);
   if (spawn.has_goal) checkPlace("spawn: goal ", spawn.goal);
-  if (memory_.walkers.size() >= MOST_WALKERS)
-    throw InvalidInput("spawn: walkers = " + std::to_string(MOST_WALKERS) +
-                       " are there, which is the most allowed");
-  if (find(id)) throw InvalidInput("spawn: walker " + std::to_string(id) + " exists already");
+  checkRoom("spawn: ", id);
   memory_.next_id = std::max(memory_.next_id, id + 1);
   Walker w;
   w.id = id;
@@ -208,9 +217,8 @@ std::vector<Walker> Crowd::takeOutside(const CrowdOwners& owners) {
 }
 
 void Crowd::takeIn(const Walker& walker) {
+  checkRoom("", walker.id);
   const std::size_t index = indexOf(walker.id);
-  if (find(walker.id))
-    throw InvalidInput("walker " + std::to_string(walker.id) + " exists already");
   memory_.next_id = std::max(memory_.next_id, walker.id + 1);
   memory_.walkers.insert(memory_.walkers.begin() + static_cast<std::ptrdiff_t>(index), walker);
 }
@@ -246,14 +254,14 @@ void Crowd::setRobot(const Robot& robot) {
   check(robot, faults);
   faults.throwIfAny();
   if (memory_.robots.size() >= MOST_ROBOTS && !memory_.robots.count(robot.id))
-    throw InvalidInput("robot '" + robot.id + "' is one more than the " +
+    throw InvalidInput("robot " + inQuotes(robot.id) + " is one more than the " +
                        std::to_string(MOST_ROBOTS) + " allowed");
   memory_.robots[robot.id] = robot;
 }
 
 void Crowd::removeRobot(const std::string& id) {
   if (!memory_.robots.erase(id))
-    throw InvalidInput("robot '" + id + "' is unknown", FaultCode::UNKNOWN);
+    throw InvalidInput("robot " + inQuotes(id) + " is unknown", FaultCode::UNKNOWN);
 }
 
 void Crowd::clear() {

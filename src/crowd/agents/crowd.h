@@ -48,6 +48,8 @@ class CrowdOwners;
 
 /// Limits of a crowd.
 constexpr std::size_t MOST_WALKERS = 100000, MOST_ROBOTS = 64;
+/// Largest id of a walker; the next one is a number, too.
+constexpr std::uint32_t LARGEST_ID = (1u << 31) - 1;
 
 /// Walkers that perceive, decide and move (paper 2, section 5; S2-30). Inputs take effect at the
 /// next tick. Each walker perceives the crowd as it was before the tick, so the result depends
@@ -83,10 +85,13 @@ class Crowd {
 
   /// Removes the walkers whose places another shard owns, and returns them by rising id.
   std::vector<Walker> takeOutside(const CrowdOwners& owners);
-  /// Adds a walker that has left another shard. @throws InvalidInput if its id is not free.
+  /// Adds a walker that has left another shard. @throws InvalidInput if its id is not free, or
+  /// MOST_WALKERS are there.
   void takeIn(const Walker& walker);
   /// Gives no id up to this one to walkers that are spawned without an id.
-  void keepIdsFree(std::uint32_t id) { memory_.next_id = std::max(memory_.next_id, id + 1); }
+  void keepIdsFree(std::uint32_t id) {
+    memory_.next_id = std::max(memory_.next_id, std::min(id, LARGEST_ID) + 1);
+  }
   /// Sets the walkers of other shards, by rising id, that those of this one see in the next tick.
   /// No id may be that of a walker here.
   void setOthers(std::vector<Walker> others) { others_ = std::move(others); }
@@ -111,6 +116,8 @@ class Crowd {
 
  private:
   struct Tick;
+  /// @throws InvalidInput unless there is room for a walker with this id.
+  void checkRoom(const char* context, std::uint32_t id) const;
   static constexpr std::size_t NOT_HERE = SIZE_MAX;
   std::size_t indexOf(std::uint32_t id) const;
   Walker& at(std::uint32_t id);

@@ -10,51 +10,58 @@ namespace {
 constexpr std::size_t WALKER_BYTES = 218, ROBOT_BYTES = 60, LONGEST_NAME = 4096;
 constexpr std::size_t WAY_BYTES = 12, BORDER_BYTES = 30;
 constexpr std::size_t MOST_CORNERS = 4096;
+// People are pushed a little beyond the places where they may be sent.
+constexpr Range STATE_PLACES{-1.1e5, 1.1e5}, STATE_SPEEDS{-1e3, 1e3}, STATE_OFFSETS{-100.0, 100.0};
+constexpr Range STATE_ANGLES{-1e3, 1e3}, STATE_TURN_RATES{-100.0, 100.0}, STATE_AMOUNTS{-1e9, 1e9};
 
-void archive(Archive& a, const char* name, Point& point) {
-  a.number(name, point.x);
-  a.number(name, point.y);
+void archive(Archive& a, const char* name, Point& point, Range range) {
+  a.number(name, point.x, range);
+  a.number(name, point.y, range);
+}
+
+void archiveId(Archive& a, const char* name, std::uint32_t& id) {
+  a.integer<std::uint32_t>(name, id, 0, LARGEST_ID);
 }
 
 void archive(Archive& a, Foot& foot) {
-  archive(a, "foot planted", foot.planted);
-  archive(a, "foot offset", foot.offset);
+  archive(a, "foot planted", foot.planted, STATE_PLACES);
+  archive(a, "foot offset", foot.offset, STATE_OFFSETS);
   a.flag("foot stands", foot.stands);
 }
 
 void archive(Archive& a, Walker& w) {
-  a.integer("walker id", w.id);
+  archiveId(a, "walker id", w.id);
   a.key(w.key);
-  archive(a, "walker position", w.position);
-  archive(a, "walker velocity", w.velocity);
-  a.number("walker heading", w.heading);
-  a.number("walker turn_rate", w.turn_rate);
+  archive(a, "walker position", w.position, STATE_PLACES);
+  archive(a, "walker velocity", w.velocity, STATE_SPEEDS);
+  a.number("walker heading", w.heading, STATE_ANGLES);
+  a.number("walker turn_rate", w.turn_rate, STATE_TURN_RATES);
   a.number("walker radius", w.radius, {0.01, 10.0});
   a.number("walker height", w.height, {0.01, 10.0});
   a.number("walker speed", w.speed, {0.0, 100.0});
   a.flag("walker has_goal", w.has_goal);
   a.flag("walker wanders", w.wanders);
   a.flag("walker arrived", w.arrived);
-  archive(a, "walker goal", w.goal);
+  archive(a, "walker goal", w.goal, STATE_PLACES);
   a.integer("walker goals", w.goals);
   a.integer("walker side", w.side, -1, 1);
-  a.number("walker side_left", w.side_left);
-  a.number("walker nearest_goal", w.nearest_goal);
-  a.number("walker no_progress", w.no_progress);
-  a.number("walker held_up", w.held_up);
+  a.number("walker side_left", w.side_left, STATE_AMOUNTS);
+  a.number("walker nearest_goal", w.nearest_goal, STATE_AMOUNTS);
+  a.number("walker no_progress", w.no_progress, STATE_AMOUNTS);
+  a.number("walker held_up", w.held_up, STATE_AMOUNTS);
   a.flag("walker detours", w.detours);
-  a.number("walker gait", w.gait);
+  a.number("walker gait", w.gait, STATE_AMOUNTS);
   for (Foot& foot : w.feet) archive(a, foot);
 }
 
 void archive(Archive& a, Robot& robot) {
   a.text("robot id", robot.id, LONGEST_NAME);
   a.list("robot outline", robot.outline, MOST_CORNERS, sizeof(Point),
-         [&a](Point& corner) { archive(a, "robot corner", corner); });
+         [&a](Point& corner) { archive(a, "robot corner", corner, STATE_PLACES); });
   a.number("robot radius", robot.radius);
-  archive(a, "robot position", robot.position);
+  archive(a, "robot position", robot.position, STATE_PLACES);
   a.number("robot yaw", robot.yaw);
-  archive(a, "robot velocity", robot.velocity);
+  archive(a, "robot velocity", robot.velocity, STATE_SPEEDS);
 }
 
 void archive(Archive& a, WayProgress& way) {
@@ -73,7 +80,7 @@ void checkRead(const CrowdSnapshot& snapshot) {
   }
   Faults faults;
   for (const auto& [id, robot] : snapshot.robots) {
-    if (robot.id != id) Archive::reject("robot id = '" + robot.id + "'", "is not its key");
+    if (robot.id != id) Archive::reject("robot id = " + inQuotes(robot.id), "is not its key");
     check(robot, faults);
   }
   faults.throwIfAny();
@@ -105,7 +112,8 @@ void archiveFields(Archive& a, CrowdBorder& border) {
   a.integer("begun", border.begun);  // of a process: a load does not move it
   a.flag("starts", border.starts);
   a.flag("lists", border.lists);
-  a.list("ids", border.ids, 2 * MOST_WALKERS, 4, [&a](std::uint32_t& id) { a.integer("id", id); });
+  a.list("ids", border.ids, 2 * MOST_WALKERS, 4,
+         [&a](std::uint32_t& id) { archiveId(a, "id", id); });
 }
 
 void archive(Archive& a, CrowdSnapshot& snapshot) {
@@ -120,7 +128,7 @@ void archive(Archive& a, CrowdSnapshot& snapshot) {
       "robots", snapshot.robots, MOST_ROBOTS, ROBOT_BYTES,
       [&a](std::string& id) { a.text("robot", id, LONGEST_NAME); },
       [&a](const std::string&, Robot& robot) { archive(a, robot); });
-  a.integer("next id", snapshot.next_id);
+  a.integer<std::uint32_t>("next id", snapshot.next_id, 0, LARGEST_ID + 1);
   a.list("ways", snapshot.ways, MOST_WALKERS, WAY_BYTES,
          [&a](WayProgress& way) { archive(a, way); });
   if (a.reads()) checkRead(snapshot);

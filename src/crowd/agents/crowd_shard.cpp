@@ -80,13 +80,13 @@ void CrowdShard::removeAll() {
   start_.clear();
 }
 
-void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
+std::size_t CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
   const Shard& own = owners_.shard();
   if (shard >= own.count || shard == own.index)
     throw InvalidInput("border: shard = " + std::to_string(shard) + " is no other shard of the " +
                        std::to_string(own.count) + " than this one, " + std::to_string(own.index));
   const auto known = borders_.find(shard);
-  if (known != borders_.end() && border.stamp <= known->second.stamp) return;
+  if (known != borders_.end() && border.stamp <= known->second.stamp) return 0;
   const bool is_younger = fresh_ || border.begun < begun_.value_or(0);
   const bool is_first = border.stamp > 0 && known_.insert(shard).second;
   if (is_first && is_younger && !starts_) removeAll();
@@ -94,10 +94,11 @@ void CrowdShard::hear(std::uint32_t shard, CrowdBorder border) {
     run_ = border.run;
     if (starts_) removeAll();
   }
-  if (border.run < run_) return;
+  if (border.run < run_) return 0;
   forgetTaken(shard, border);
-  takeIn(shard, border);
+  const std::size_t lost = takeIn(shard, border);
   borders_[shard] = std::move(border);
+  return lost;
 }
 
 // Forgets those on the way to a shard that has heard of them.
@@ -112,10 +113,11 @@ void CrowdShard::forgetTaken(std::uint32_t shard, const CrowdBorder& border) {
 }
 
 // A shard that has started later and has not heard this one yet may have people who live elsewhere.
-// It removes them once it does.
-void CrowdShard::takeIn(std::uint32_t shard, const CrowdBorder& border) {
+// It removes them once it does. Those on the way are in the state of this shard as well.
+std::size_t CrowdShard::takeIn(std::uint32_t shard, const CrowdBorder& border) {
   const std::uint32_t own = owners_.shard().index;
-  if (begun_ && border.begun > *begun_ && border.heard.count(own) == 0) return;
+  if (begun_ && border.begun > *begun_ && border.heard.count(own) == 0) return 0;
+  std::size_t lost = 0;
   const auto known = borders_.find(shard);
   for (const CrowdBorder::Handed& handed : border.handed) {
     const bool is_new = known == borders_.end() || handed.stamp > known->second.stamp;
@@ -124,8 +126,12 @@ void CrowdShard::takeIn(std::uint32_t shard, const CrowdBorder& border) {
     const auto on_way = findHanded(handed.walker.id);
     if (on_way != handed_.end() && on_way->stamp >= handed.stamp) continue;
     if (on_way != handed_.end()) handed_.erase(on_way);
-    crowd_->takeIn(handed.walker);
+    if (crowd_->walkers().size() + handed_.size() < MOST_WALKERS)
+      crowd_->takeIn(handed.walker);
+    else
+      ++lost;
   }
+  return lost;
 }
 
 // Whether a border lists the people of its shard as they were after this one had asked.

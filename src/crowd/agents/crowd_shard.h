@@ -66,8 +66,9 @@ class CrowdShard {
   /// Takes the border of another shard, and in those who come from there. One that is not newer
   /// than the last, or from before a reset, is ignored. If this shard hears a tick of the other for
   /// the first time and has started later, it removes all people, until spawnMissing(), since the
-  /// other may have them. @throws InvalidInput for another shard than there are.
-  void hear(std::uint32_t shard, CrowdBorder border);
+  /// other may have them. Returns the number of those from there for whom there is no room here,
+  /// and who are lost. @throws InvalidInput for another shard than there are.
+  std::size_t hear(std::uint32_t shard, CrowdBorder border);
   /// Does the same before the first tick, if another shard is known to have run before.
   void startBesideOthers();
   /// Whether the shard has no people yet, since others have not listed theirs.
@@ -102,7 +103,7 @@ class CrowdShard {
  private:
   void removeAll();
   void forgetTaken(std::uint32_t shard, const CrowdBorder& border);
-  void takeIn(std::uint32_t shard, const CrowdBorder& border);
+  std::size_t takeIn(std::uint32_t shard, const CrowdBorder& border);
   bool hasAnswered(std::uint32_t shard) const;
   /// Whether the person is here or on the way to another shard.
   bool has(std::uint32_t id) const;

@@ -139,7 +139,7 @@ void check(const MotionStyles& styles, Faults& faults) {
     faults.add("styles are " + std::to_string(styles.size()) + ", allowed are 1 to " +
                std::to_string(MOST_STYLES));
   for (const MotionStyle& style : styles) {
-    FieldChecker checker("style '" + style.name + "': ", faults);
+    FieldChecker checker("style " + inQuotes(style.name) + ": ", faults);
     double period = style.stand_period;
     checker.number("stand_period", period, "s", {0.1, 600.0});
     for (const Clip* clip : {&style.walk, &style.stand, &style.turn})

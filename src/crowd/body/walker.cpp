@@ -45,7 +45,7 @@ void describe(FieldVisitor& v, Spawn& s) {
 }
 
 void check(const Robot& robot, Faults& faults) {
-  FieldChecker checker("robot '" + robot.id + "': ", faults);
+  FieldChecker checker("robot " + inQuotes(robot.id) + ": ", faults);
   Robot r = robot;
   checker.number("x", r.position.x, "m", {-FARTHEST, FARTHEST});
   checker.number("y", r.position.y, "m", {-FARTHEST, FARTHEST});
@@ -54,7 +54,7 @@ void check(const Robot& robot, Faults& faults) {
   checker.number("velocity.y", r.velocity.y, "m/s", {-50.0, 50.0});
   checker.number("radius", r.radius, "m", {0.01, 20.0});
   if (!r.outline.empty() && (r.outline.size() < 3 || r.outline.size() > MOST_CORNERS))
-    faults.add("robot '" + r.id + "': outline has " + std::to_string(r.outline.size()) +
+    faults.add("robot " + inQuotes(r.id) + ": outline has " + std::to_string(r.outline.size()) +
                " corners, allowed are 3 to 64, or none for a disc");
   for (Point& corner : r.outline) {
     checker.number("outline.x", corner.x, "m", {-20.0, 20.0});

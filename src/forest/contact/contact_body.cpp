@@ -31,7 +31,7 @@ Vec3 turnOf(Quat q) {
 
 void checkSize(const Body& body, const char* name, double value, double least, Faults& faults) {
   const std::string fault =
-      rangeFault("body '" + body.id + "'." + name, value, "m", Range{least, LARGEST_BODY});
+      rangeFault("body " + inQuotes(body.id) + "." + name, value, "m", Range{least, LARGEST_BODY});
   if (!fault.empty()) faults.add(fault);
 }
 
@@ -47,7 +47,8 @@ void checkShape(const Body& body, Faults& faults) {
       checkSize(body, "size_y", body.size.y(), SMALLEST_BODY, faults);
       return checkSize(body, "size_z", body.size.z(), SMALLEST_BODY, faults);
   }
-  faults.add("body '" + body.id + "'.shape = " + std::to_string(static_cast<int>(body.shape)) +
+  faults.add("body " + inQuotes(body.id) +
+             ".shape = " + std::to_string(static_cast<int>(body.shape)) +
              " is none of 0 (sphere), 1 (capsule), 2 (box)");
 }
 
@@ -57,7 +58,7 @@ void check(const Body& body, Faults& faults) {
   if (body.id.empty()) faults.add("body.id is empty");
   checkShape(body, faults);
   Body copy = body;
-  const std::string name = "body '" + body.id + "'.";
+  const std::string name = "body " + inQuotes(body.id) + ".";
   FieldChecker checker(name, faults);
   checker.vector("position", copy.pose.position, "m", {-1e7, 1e7});
   checker.vector("velocity", copy.velocity, "m/s", {-FASTEST_BODY, FASTEST_BODY});

@@ -212,7 +212,7 @@ void ForestPhysics::checkRead(const Layout& layout, const GrowTree& grow) const 
   for (const Push& push : pushes_) checkPush(layout, *tree_of(push.point.tree), push);
   for (const BranchCut& cut : cuts_) checkCut(layout, *tree_of(cut.tree), cut);
   for (const auto& [id, body] : bodies_) {
-    if (body.id != id) Archive::reject("body id = '" + body.id + "'", "is not its key");
+    if (body.id != id) Archive::reject("body id = " + inQuotes(body.id), "is not its key");
     check(body, faults);
   }
   const auto branch_of = [&](std::uint32_t tree, int branch) {

@@ -215,13 +215,14 @@ void ForestPhysics::setBody(const Body& body) {
   Faults faults;
   check(body, faults);
   if (!bodies_.count(body.id) && bodies_.size() >= MOST_BODIES)
-    faults.add("body '" + body.id + "' is one more than the " + count(MOST_BODIES) + " allowed");
+    faults.add("body " + inQuotes(body.id) + " is one more than the " + count(MOST_BODIES) +
+               " allowed");
   faults.throwIfAny();
   bodies_[body.id] = body;
 }
 
 void ForestPhysics::removeBody(const std::string& id) {
-  findKnown(bodies_, id, "body '" + id + "'");
+  findKnown(bodies_, id, "body " + inQuotes(id));
   bodies_.erase(id);
 }
 

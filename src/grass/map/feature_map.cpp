@@ -23,16 +23,16 @@ void forEachLayer(Input& input, const std::string& context, Visit&& visit) {
   visit(input.colour, COLOUR_RULE, context);
   visit(input.shape, SHAPE_RULE, context);
   for (auto& entry : input.species)
-    visit(entry.mix, MIX_RULE, context + "species '" + entry.species.name + "': ");
+    visit(entry.mix, MIX_RULE, context + "species " + inQuotes(entry.species.name) + ": ");
 }
 
 void checkSpecies(MapInput& input, const std::string& context, Faults& faults) {
   std::set<std::string> names;
   for (SpeciesInput& entry : input.species) {
-    FieldChecker checker(context + "species '" + entry.species.name + "': ", faults);
+    FieldChecker checker(context + "species " + inQuotes(entry.species.name) + ": ", faults);
     describe(checker, entry.species);
     if (!names.insert(entry.species.name).second)
-      faults.add(context + "species '" + entry.species.name + "' is defined twice");
+      faults.add(context + "species " + inQuotes(entry.species.name) + " is defined twice");
   }
   if (input.species.size() > MAX_SPECIES)
     faults.add(context + std::to_string(input.species.size()) + " species, allowed are 1 to " +

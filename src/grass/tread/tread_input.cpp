@@ -14,7 +14,7 @@ void check(const TreadInput& input, const std::string& context, Faults& faults) 
   TreadInput copy = input;
   FieldChecker checker(context, faults);
   if (input.source.empty() || input.source.size() > LONGEST_NAME)
-    faults.add(context + "source = '" + input.source.substr(0, 40) + "' has " +
+    faults.add(context + "source = " + inQuotes(input.source) + " has " +
                std::to_string(input.source.size()) + " letters, allowed are 1 to " +
                std::to_string(LONGEST_NAME));
   const int action = static_cast<int>(input.action);

@@ -244,7 +244,7 @@ class SavedNode : public NodeBase {
     const auto& wanted = event.snapshot;
     const auto found = snapshots_.read(wanted.name, wanted.node, fromMsg(wanted.stamp));
     if (found.header.state_hash != wanted.hash)
-      throw InvalidInput("snapshot '" + wanted.name + "' has the hash " +
+      throw InvalidInput("snapshot " + inQuotes(wanted.name) + " has the hash " +
                          std::to_string(found.header.state_hash) + ", the recorded one had " +
                          std::to_string(wanted.hash));
     found.state.restore();

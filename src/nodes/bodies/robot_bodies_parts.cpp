@@ -139,7 +139,8 @@ void addLink(const urdf::Link& link, const std::string& prefix, MeshCovering& me
       if (!collision.geometry) throw InvalidInput("has no geometry");
       addCollision(*collision.geometry, part, meshes, out);
     } catch (const InvalidInput& error) {
-      out.left_out.push_back("link '" + prefix + link.name + "' touches nothing: " + error.what());
+      out.left_out.push_back("link " + inQuotes(prefix + link.name) +
+                             " touches nothing: " + error.what());
     }
   }
 }
@@ -164,7 +165,7 @@ forest::Body readPart(YamlSection section) {
   section.vector("rotation", angles, "rad", {-2.0 * PI, 2.0 * PI});
   body.in_frame.orientation = fromAngles(angles);
   if (body.frame.empty() || body.frame[0] == '/')
-    section.fault("frame", "= '" + body.frame + "' is empty or begins with '/'");
+    section.fault("frame", "= " + inQuotes(body.frame) + " is empty or begins with '/'");
   section.finish();
   return body;
 }
@@ -179,8 +180,8 @@ void readRobot(const ros::NodeHandle& handle, YamlSection& section, Faults& faul
   if (!handle.searchParam(name, found) || !ros::param::get(found, urdf))
     return section.fault(
         "robot_description",
-        "= '" + name +
-            "' is not a parameter whose value is a URDF; it must be set before this node starts");
+        "= " + inQuotes(name) +
+            " is not a parameter whose value is a URDF; it must be set before this node starts");
   const RobotParts robot = partsOfUrdf(urdf, prefix, faults);
   out.parts.insert(out.parts.end(), robot.parts.begin(), robot.parts.end());
   out.left_out.insert(out.left_out.end(), robot.left_out.begin(), robot.left_out.end());
@@ -225,7 +226,8 @@ RobotParts readRobotParts(const ros::NodeHandle& private_handle, Parameters& par
   std::set<std::string> ids;
   for (const forest::Body& part : out.parts) {
     forest::check(part, parameters.faults());
-    if (!ids.insert(part.id).second) parameters.fault("bodies", "names '" + part.id + "' twice");
+    if (!ids.insert(part.id).second)
+      parameters.fault("bodies", "names " + inQuotes(part.id) + " twice");
   }
   if (out.parts.size() > MOST_PARTS)
     parameters.fault("bodies", "are " + std::to_string(out.parts.size()) + " parts, allowed are " +

@@ -129,6 +129,12 @@ bool AgentCrowd::onSpawn(SpawnAgents::Request& request, SpawnAgents::Response& r
               " of most_walkers = " + std::to_string(most) + " are there, " +
               std::to_string(waitingWalkers()) + " are to come",
           count == 0 || count > MOST_AT_ONCE ? FaultCode::INVALID_VALUE : FaultCode::NO_ROOM);
+    const std::uint64_t last =
+        next_id_ + std::uint64_t{count} * (shard_ ? options_.shard->count : 1);
+    if (last > crowd::LARGEST_ID)
+      throw InvalidInput("ids up to " + std::to_string(last) + " are needed, allowed are 0 to " +
+                             std::to_string(crowd::LARGEST_ID),
+                         FaultCode::NO_ROOM);
     const Pose to_world = poseOf(request.header.frame_id);
     const Vec3 front = axisX(to_world.orientation);
     Faults faults;

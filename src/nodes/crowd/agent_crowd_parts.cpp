@@ -33,9 +33,7 @@ void AgentCrowd::publishPart(Nanoseconds stamp) {
 void AgentCrowd::onPart(const CrowdPart& message) {
   acceptInput("agents/parts", [&] {
     const Nanoseconds stamp = fromMsg(message.people.header.stamp);
-    if (message.shard == 0 || message.shard >= options_.shard->count)
-      throw InvalidInput("shard = " + std::to_string(message.shard) + " is outside 1 to " +
-                         std::to_string(options_.shard->count - 1));
+    check(message, options_.shard->count);
     const TickGrid& grid = clock_.grid();
     if (grid.timeOf(grid.tickAt(stamp)) != stamp)
       throw InvalidInput("stamp = " + std::to_string(stamp) + " ns is not that of a tick");
@@ -44,12 +42,6 @@ void AgentCrowd::onPart(const CrowdPart& message) {
       throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
                          std::to_string(MOST_AHEAD) + " s");
     checkFrame(message.people.header.frame_id, options_.frame_id);
-    check(message.people.agents);
-    check(message.waiting);
-    for (const std::uint32_t shard : message.heard)
-      if (shard >= options_.shard->count)
-        throw InvalidInput("heard = " + std::to_string(shard) + " is outside 0 to " +
-                           std::to_string(options_.shard->count - 1));
     joinPart(message);
   });
 }

@@ -176,7 +176,11 @@ void AgentCrowd::applyBorder(std::uint64_t hash) {
   }
   for (auto last = walked.begin(); last != walked.end();)
     last = crowd_.find(last->first) ? walked.erase(last) : std::next(last);
-  shard_->hear(found->shard, std::move(border));
+  if (const std::size_t lost = shard_->hear(found->shard, std::move(border)))
+    refusals_.add("agents/border", std::to_string(lost) + " people of " +
+                                       describeShard(found->shard, options_.shard->count) +
+                                       ": allowed are " + std::to_string(crowd::MOST_WALKERS) +
+                                       " in a shard");
   for (const auto& [id, last] : walked)
     if (crowd_.find(id)) trodden_.insert_or_assign(id, last);
 }

@@ -28,8 +28,8 @@ void AgentCrowd::archive(Archive& a, Walked& walked) {
       "trodden", walked, crowd::MOST_WALKERS, TRODDEN_BYTES,
       [&a](std::uint32_t& id) { a.integer("walker", id); },
       [&a](std::uint32_t, Trodden& last) {
-        a.number("trodden x", last.place.x);
-        a.number("trodden y", last.place.y);
+        a.number("trodden x", last.place.x, {-1.1e5, 1.1e5});
+        a.number("trodden y", last.place.y, {-1.1e5, 1.1e5});
         a.flag("foot stood", last.stood[0]);
         a.flag("foot stood", last.stood[1]);
         a.flag("seen", last.seen);

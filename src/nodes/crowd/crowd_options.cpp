@@ -17,7 +17,7 @@ crowd::Robot readRobot(YamlSection& section) {
   section.text("frame", out.id);
   if (out.id.empty()) section.fault("needs a frame");
   if (!out.id.empty() && out.id[0] == '/')
-    section.fault("frame", "= '" + out.id + "' begins with '/'");
+    section.fault("frame", "= " + inQuotes(out.id) + " begins with '/'");
   section.number("radius", out.radius, "m", {0.01, 20.0});
   for (YamlSection& corner : section.sections("outline")) {
     crowd::Point p{};
@@ -41,7 +41,7 @@ std::vector<crowd::Robot> readRobots(YamlSection& section) {
   for (YamlSection& entry : section.sections("robots")) {
     out.push_back(readRobot(entry));
     if (!names.insert(out.back().id).second)
-      section.fault("robots", "names '" + out.back().id + "' twice");
+      section.fault("robots", "names " + inQuotes(out.back().id) + " twice");
   }
   if (out.size() > crowd::MOST_ROBOTS)
     section.fault("robots", "are " + std::to_string(out.size()) + ", allowed are " +

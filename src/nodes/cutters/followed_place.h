@@ -17,7 +17,7 @@ constexpr std::size_t MOST_FOLLOWED = 256;
 template <class Followed>
 void readPlace(YamlSection& section, Followed& out) {
   if (!out.frame.empty() && out.frame[0] == '/')
-    section.fault("frame", "= '" + out.frame + "' begins with '/'");
+    section.fault("frame", "= " + inQuotes(out.frame) + " begins with '/'");
   section.vector("offset", out.offset, "m", {-100.0, 100.0});
   double height_gate = 0.0;
   section.number("height_gate", height_gate, "m", {0.0, 1000.0});
@@ -32,7 +32,7 @@ std::vector<Item> readFollowed(YamlSection& section, const char* key, Item (*rea
   for (YamlSection& entry : section.sections(key)) {
     out.push_back(read(entry));
     if (!names.insert(out.back().name).second)
-      section.fault(key, "names '" + out.back().name + "' twice");
+      section.fault(key, "names " + inQuotes(out.back().name) + " twice");
   }
   if (out.size() > MOST_FOLLOWED)
     section.fault(key, "are " + std::to_string(out.size()) + ", allowed are " +

@@ -135,7 +135,7 @@ void ForestAnimator::apply(ForestInput& event) {
       event.sensor.stamp = event.stamp;
       const auto& known = forest_->snapshot().sensors;
       if (known.size() >= MOST_SENSORS && !known.count(event.sensor.id))
-        throw InvalidInput("sensor '" + event.sensor.id + "' is one more than the " +
+        throw InvalidInput("sensor " + inQuotes(event.sensor.id) + " is one more than the " +
                            std::to_string(MOST_SENSORS) + " allowed at once");
       forest_->setSensor(event.sensor);
       break;

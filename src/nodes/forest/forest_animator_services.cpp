@@ -6,33 +6,12 @@
 #include "forest/trees_around.h"
 #include "nodes/cutters/cut_request.h"
 #include "nodes/forest/forest_animator.h"
+#include "nodes/forest/tree_requests.h"
 #include "ros/conversions/grab_conversions.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 
 namespace vegetation_sim {
-namespace {
-
-constexpr double SHORTEST_DIRECTION = 1e-9;
-constexpr int LARGEST_PAGE = 100;  // trees; each of them is grown for its height
-
-forest::Ray checkedRay(const Pick::Request& request) {
-  const auto& o = request.origin;
-  const auto& d = request.direction;
-  forest::Ray ray{Vec3(o.x, o.y, o.z), Vec3(d.x, d.y, d.z), request.tolerance};
-  Faults faults;
-  FieldChecker checker("", faults);
-  checker.vector("origin", ray.origin, "m", {-1e7, 1e7});
-  checker.vector("direction", ray.direction, "", {-1e6, 1e6});
-  checker.number("tolerance", ray.tolerance, "m", {0.0, 10.0});
-  if (faults.empty() && length(ray.direction) < SHORTEST_DIRECTION)
-    faults.add("direction has no length; allowed is 1e-9 or more");
-  faults.throwIfAny();
-  return ray;
-}
-
-}  // namespace
-
 Nanoseconds ForestAnimator::stampOf(const ros::Time& stamp) const {
   return stamp.isZero() ? forest_->snapshot().stamp : fromMsg(stamp);
 }
@@ -83,21 +62,13 @@ FoundTree ForestAnimator::foundTree(std::uint32_t id) {
 
 bool ForestAnimator::onFindTrees(FindTrees::Request& request, FindTrees::Response& response) {
   return answer(response, [&] {
-    Vec3 centre = fromMsg(request.centre.point);
-    int limit = static_cast<int>(std::min(request.limit, std::uint32_t{INT32_MAX}));
-    Faults faults;
-    FieldChecker checker("", faults);
-    checker.integer("limit", limit, "", {1, LARGEST_PAGE});
-    if (!request.all) {
-      checker.vector("centre", centre, "m", {-1e7, 1e7});
-      checker.number("radius", request.radius, "m", {0.0, 1e7});
-    }
-    faults.throwIfAny();
+    check(request);
     std::vector<std::uint32_t> around;
     response.total = forest_->layout().treeCount();
     if (!request.all) {
       const auto& header = request.centre.header;
-      centre = transformed(poseOf(header.frame_id, header.stamp), centre);
+      const Vec3 centre =
+          transformed(poseOf(header.frame_id, header.stamp), fromMsg(request.centre.point));
       around = forest::treesAround(forest_->layout(), centre, request.radius);
       response.total = static_cast<std::uint32_t>(around.size());
     }
@@ -110,7 +81,7 @@ bool ForestAnimator::onFindTrees(FindTrees::Request& request, FindTrees::Respons
 }
 
 forest::Ray ForestAnimator::rayOf(const Pick::Request& request) const {
-  forest::Ray ray = checkedRay(request);
+  forest::Ray ray = vegetation_sim::rayOf(request);
   const std::string& frame = request.header.frame_id;
   if (frame.empty() || frame == options_.frame_id) return ray;
   const Pose pose = poseOf(frame, request.header.stamp);

@@ -186,7 +186,7 @@ void GrabManager::setByFrame(const Vec3& point, const geometry_msgs::TransformSt
   if (!request.published.isZero()) {  // else static
     const double age = secondsBetween(fromMsg(request.published), node_.forest.snapshot().stamp);
     if (age > grab.lease)
-      throw InvalidInput("frame = '" + grab.frame + "' has a transform that is " +
+      throw InvalidInput("frame = " + inQuotes(grab.frame) + " has a transform that is " +
                              std::to_string(age) + " s old, longer than the lease of " +
                              std::to_string(grab.lease) + " s",
                          FaultCode::NO_TRANSFORM);
@@ -275,8 +275,8 @@ std::string GrabManager::move(const MoveGrab::Request& request, MoveGrab::Respon
   forest::Grab& moved = event.grab;
   if (!request.renew_only) {
     if (!moved.frame.empty())
-      throw InvalidInput("id = " + std::to_string(request.id) + " follows frame '" + moved.frame +
-                         "'; allowed is renew_only");
+      throw InvalidInput("id = " + std::to_string(request.id) + " follows frame " +
+                         inQuotes(moved.frame) + "; allowed is renew_only");
     moved.target = inWorld(request.target, "target");
   }
   const Vec3 point = pointOf(moved);

@@ -71,9 +71,9 @@ geometry_msgs::TransformStamped GrabManager::awaitFrame(const std::string& frame
   try {
     return lookup_.find(frame);
   } catch (const tf2::TransformException& error) {
-    throw InvalidInput(
-        "frame = '" + frame + "' is not known in '" + node_.options.frame_id + "': " + error.what(),
-        FaultCode::NO_TRANSFORM);
+    throw InvalidInput("frame = " + inQuotes(frame) + " is not known in " +
+                           inQuotes(node_.options.frame_id) + ": " + error.what(),
+                       FaultCode::NO_TRANSFORM);
   }
 }
 

@@ -2,10 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/grass/grass_events.h"
 
+#include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr std::size_t MOST_PATH_POINTS = 10000;
+constexpr Range PLACES{-1e7, 1e7};
+
+}  // namespace
 
 std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
                          grass::TreadSimulation& simulation) {
@@ -25,6 +32,63 @@ std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
     default:
       throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 6");
   }
+}
+
+void checkCount(std::size_t count, std::size_t most) {
+  if (count < 1 || count > most)
+    throw InvalidInput("points has " + std::to_string(count) + " entries, allowed are 1 to " +
+                       std::to_string(most));
+}
+
+void checkPoint(std::size_t index, Vec3 point, Faults& faults) {
+  FieldChecker checker("points[" + std::to_string(index) + "].", faults);
+  checker.number("x", point.x(), "m", PLACES);
+  checker.number("y", point.y(), "m", PLACES);
+}
+
+std::pair<Range, Range> rangesOf(const grass::MapLaw& law) {
+  return {{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)},
+          {law.origin_y, law.origin_y + law.resolution * (law.rows - 1)}};
+}
+
+GrassEvent clearingOf(const ClearGrass::Request& request, const FramePose& pose) {
+  GrassEvent out;
+  out.kind = GrassEvent::CLEAR;
+  out.all = request.all;
+  if (request.all) return out;
+  Faults faults;
+  FieldChecker checker("", faults);
+  Vec3 centre = fromMsg(request.centre.point);
+  out.radius = request.radius;
+  checker.vector("centre", centre, "m", PLACES);
+  checker.number("radius", out.radius, "m", {0.0, 10000.0});
+  faults.throwIfAny();
+  out.centre = toPoint(transformed(pose(), centre));
+  return out;
+}
+
+std::vector<Vec3> pathOf(const Tread::Request& request, const grass::MapLaw& law,
+                         const terrain::HeightMap& terrain, const FramePose& pose) {
+  checkCount(request.points.size(), MOST_PATH_POINTS);
+  const Pose to_world = pose();
+  const auto [x_range, y_range] = rangesOf(law);
+  Faults faults;
+  for (std::size_t i = 0; i < request.points.size(); ++i)
+    checkPoint(i, fromMsg(request.points[i]), faults);
+  faults.throwIfAny();
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < request.points.size(); ++i) {
+    Vec3 p = fromMsg(request.points[i]);
+    p.z() = 0.0;
+    p = transformed(to_world, p);
+    FieldChecker checker("points[" + std::to_string(i) + "].", faults);
+    checker.number("x", p.x(), "m", x_range);
+    checker.number("y", p.y(), "m", y_range);
+    p.z() = terrain.height(p.x(), p.y());
+    out.push_back(p);
+  }
+  faults.throwIfAny();
+  return out;
 }
 
 }  // namespace vegetation_sim

@@ -113,7 +113,6 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   bool onCutting(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool onSetColours(SetGrassColours::Request& request, SetGrassColours::Response& response);
   bool onClear(ClearGrass::Request& request, ClearGrass::Response& response);
-  std::vector<Vec3> pathOf(const Tread::Request& request) const;
   void queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law, const ros::Time& stamp);
   GrassSample sampleAt(const Vec3& place, Nanoseconds stamp) const;
   std::string shownTopic(const std::string& topic) const;

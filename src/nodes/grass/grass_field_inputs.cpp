@@ -104,7 +104,7 @@ void GrassField::followSources(Nanoseconds stamp) {
   };
   for (const grass::TreadInput& input :
        sources_.update(stamp, tuning_.tread, tuning_.height_gate, report))
-    acceptInput("source '" + input.source + "'", [&] {
+    acceptInput("source " + inQuotes(input.source), [&] {
       Faults faults;
       check(input, "source: ", faults);
       faults.throwIfAny();

@@ -7,6 +7,7 @@
 #include "grass/lod/node_wind.h"
 #include "grass/map/tile_owners.h"
 #include "nodes/cutters/cut_request.h"
+#include "nodes/grass/grass_events.h"
 #include "nodes/grass/grass_field.h"
 #include "nodes/grass/waiting_areas.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
@@ -15,26 +16,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr std::size_t MOST_PATH_POINTS = 10000, MOST_SAMPLES = 100000;
-constexpr Range PLACES{-1e7, 1e7};
-
-void checkCount(std::size_t count, std::size_t most) {
-  if (count < 1 || count > most)
-    throw InvalidInput("points has " + std::to_string(count) + " entries, allowed are 1 to " +
-                       std::to_string(most));
-}
-
-void checkPoint(std::size_t index, Vec3 point, Faults& faults) {
-  FieldChecker checker("points[" + std::to_string(index) + "].", faults);
-  checker.number("x", point.x(), "m", PLACES);
-  checker.number("y", point.y(), "m", PLACES);
-}
-
-/// Ranges of a map in x and y [m].
-std::pair<Range, Range> rangesOf(const grass::MapLaw& law) {
-  return {{law.origin_x, law.origin_x + law.resolution * (law.columns - 1)},
-          {law.origin_y, law.origin_y + law.resolution * (law.rows - 1)}};
-}
+constexpr std::size_t MOST_SAMPLES = 100000;
 
 // Refuses an area of which no corner is near enough to the map to reach it.
 void checkReach(const grass::CutArea& area, const grass::MapLaw& law) {
@@ -57,30 +39,6 @@ double flatLength(const Vec3& a, const Vec3& b) {
 }
 
 }  // namespace
-
-// Returns the points of the request on the ground, in the world frame.
-std::vector<Vec3> GrassField::pathOf(const Tread::Request& request) const {
-  checkCount(request.points.size(), MOST_PATH_POINTS);
-  const Pose to_world = poseOf(request.header.frame_id);
-  const auto [x_range, y_range] = rangesOf(field_->layout().map->law());
-  Faults faults;
-  for (std::size_t i = 0; i < request.points.size(); ++i)
-    checkPoint(i, fromMsg(request.points[i]), faults);
-  faults.throwIfAny();
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < request.points.size(); ++i) {
-    Vec3 p = fromMsg(request.points[i]);
-    p.z() = 0.0;
-    p = transformed(to_world, p);
-    FieldChecker checker("points[" + std::to_string(i) + "].", faults);
-    checker.number("x", p.x(), "m", x_range);
-    checker.number("y", p.y(), "m", y_range);
-    p.z() = field_->terrain().height(p.x(), p.y());
-    out.push_back(p);
-  }
-  faults.throwIfAny();
-  return out;
-}
 
 // The path is a source of its own that comes down, moves and leaves within one tick.
 void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw& law,
@@ -122,7 +80,8 @@ bool GrassField::onTreadPath(Tread::Request& request, Tread::Response& response)
     check(law, "law: ", faults);
     faults.throwIfAny();
     const ros::Time stamp = effectOf(request.header.stamp, clock_);
-    const std::vector<Vec3> path = pathOf(request);
+    const std::vector<Vec3> path = pathOf(request, field_->layout().map->law(), field_->terrain(),
+                                          [&] { return poseOf(request.header.frame_id); });
     queuePath(path, law, stamp);
     for (std::size_t i = 1; i < path.size(); ++i)
       response.length += flatLength(path[i - 1], path[i]);
@@ -229,21 +188,8 @@ bool GrassField::onSetColours(SetGrassColours::Request& request,
 bool GrassField::onClear(ClearGrass::Request& request, ClearGrass::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    GrassEvent event;
-    event.kind = GrassEvent::CLEAR;
-    event.all = request.all;
-    if (!request.all) {
-      Faults faults;
-      FieldChecker checker("", faults);
-      Vec3 centre = fromMsg(request.centre.point);
-      checker.vector("centre", centre, "m", PLACES);
-      checker.number("radius", request.radius, "m", {0.0, 10000.0});
-      faults.throwIfAny();
-      const auto& header = request.centre.header;
-      event.centre = toPoint(transformed(poseOf(header.frame_id, header.stamp), centre));
-      event.radius = request.radius;
-    }
-    enqueue(std::move(event));
+    const auto& header = request.centre.header;
+    enqueue(clearingOf(request, [&] { return poseOf(header.frame_id, header.stamp); }));
     return "takes effect at the next tick";
   });
 }

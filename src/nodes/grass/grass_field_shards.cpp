@@ -12,14 +12,16 @@ namespace {
 
 constexpr std::int64_t TICKS_AHEAD = 6;  // so that all shards have the request before its tick
 
-// Each shard knows the samples of its own ground; those of others are not inside.
+// Each shard knows the samples of its own ground; those of others are not inside. Lists may differ
+// in length, since they are of other processes.
 SampleGrass::Response mergeSamples(const std::vector<ShardReply<SampleGrass::Response>>& replies) {
   for (const auto& reply : replies)
     if (!reply.response.success) return reply.response;
   SampleGrass::Response out = replies.front().response;
   for (const auto& reply : replies)
     for (std::size_t i = 0; i < out.samples.size(); ++i)
-      if (reply.response.samples[i].inside) out.samples[i] = reply.response.samples[i];
+      if (i < reply.response.samples.size() && reply.response.samples[i].inside)
+        out.samples[i] = reply.response.samples[i];
   return out;
 }
 

@@ -45,7 +45,7 @@ FollowedSource readSource(YamlSection& section) {
 // Values that a source does not give are those of the node.
 void checkSources(const GrassOptions& options, Parameters& parameters) {
   for (const FollowedSource& source : options.sources) {
-    const std::string context = "source '" + source.name + "': ";
+    const std::string context = "source " + inQuotes(source.name) + ": ";
     const grass::TreadLaw law =
         fromMsg(source.law, options.tuning.tread, context, parameters.faults());
     grass::check(law, context, parameters.faults());

@@ -80,22 +80,27 @@ void GrassSources::archive(Archive& a, Published& published) {
       });
 }
 
-GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed, Nanoseconds now) {
-  if (!followed.odometry) throw tf2::LookupException("nothing heard");
-  const nav_msgs::Odometry& message = *followed.odometry;
+GrassSources::ObservedSource GrassSources::observe(const nav_msgs::Odometry& message,
+                                                   const Pose& to_world, const Vec3& offset,
+                                                   Nanoseconds now) {
   Faults faults;
   Pose base{fromMsg(message.pose.pose.position),
             orientationOf(message.pose.pose.orientation, "pose.orientation", faults)};
   faults.throwIfAny();
-  const std::string& frame = message.header.frame_id;
-  Pose to_world;
-  if (frame != frame_id_) to_world = fromMsg(lookup_.find(frame).transform);
   base = compose(to_world, base);
   // The twist is in the child frame; the velocity is that of the offset point.
-  const Vec3 spin = fromMsg(message.twist.twist.angular), &arm = followed.source.offset;
-  const Vec3 velocity = fromMsg(message.twist.twist.linear) + cross(spin, arm);
+  const Vec3 spin = fromMsg(message.twist.twist.angular);
+  const Vec3 velocity = fromMsg(message.twist.twist.linear) + cross(spin, offset);
   const Nanoseconds stamp = fromMsg(message.header.stamp);
-  return {stamp == 0 ? now : stamp, transformed(base, arm), rotate(base.orientation, velocity)};
+  return {stamp == 0 ? now : stamp, transformed(base, offset), rotate(base.orientation, velocity)};
+}
+
+GrassSources::ObservedSource GrassSources::findOdometry(const Followed& followed, Nanoseconds now) {
+  if (!followed.odometry) throw tf2::LookupException("nothing heard");
+  const std::string& frame = followed.odometry->header.frame_id;
+  Pose to_world;
+  if (frame != frame_id_) to_world = fromMsg(lookup_.find(frame).transform);
+  return observe(*followed.odometry, to_world, followed.source.offset, now);
 }
 
 GrassSources::ObservedSource GrassSources::find(const Followed& followed, Nanoseconds now) {
@@ -111,10 +116,10 @@ std::string GrassSources::describeMissing(const Followed& followed) const {
   if (!followed.source.frame.empty())
     return describeMissingTransform(followed.source.frame, frame_id_);
   const std::string& topic = followed.source.odometry;
-  if (!followed.odometry) return "no odometry on '" + topic + "'";
+  if (!followed.odometry) return "no odometry on " + inQuotes(topic);
   const std::string& frame = followed.odometry->header.frame_id;
   if (frame == frame_id_ || buffer_.canTransform(frame_id_, frame, ros::Time(0)))
-    return "no recent odometry on '" + topic + "'";
+    return "no recent odometry on " + inQuotes(topic);
   return describeMissingTransform(frame, frame_id_);
 }
 
@@ -152,7 +157,7 @@ std::vector<grass::TreadInput> GrassSources::update(Nanoseconds now, const grass
       known = false;
       followed.fault = error.what();
     }
-    if (!followed.fault.empty()) report("source '" + followed.source.name + "'", followed.fault);
+    if (!followed.fault.empty()) report("source " + inQuotes(followed.source.name), followed.fault);
     followed.fault.clear();
     if (!known) {
       missing_.add(describeMissing(followed));

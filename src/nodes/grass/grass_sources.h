@@ -32,6 +32,17 @@ class GrassSources {
   GrassSources(ros::NodeHandle handle, std::string frame_id, std::vector<FollowedSource> sources,
                const tf2_ros::Buffer& buffer, double wait);
 
+  /// Where a source is.
+  struct ObservedSource {
+    Nanoseconds stamp{0};
+    Vec3 position{Vec3::Zero()};
+    std::optional<Vec3> velocity;
+  };
+  /// Returns where odometry has a point of the body, world. @param offset of the point in the frame
+  /// of the body. @throws InvalidInput for an invalid orientation.
+  static ObservedSource observe(const nav_msgs::Odometry& message, const Pose& to_world,
+                                const Vec3& offset, Nanoseconds now);
+
   /// Returns the treads of each source since the last call: it moved, left, or is repeated at rest.
   /// Positions are in the world frame; `own` and `height_gate` are for sources without values of
   /// their own. Calls `report` with the name and the fault of each source whose odometry is
@@ -59,11 +70,6 @@ class GrassSources {
   void clear();
 
  private:
-  struct ObservedSource {
-    Nanoseconds stamp{0};
-    Vec3 position{Vec3::Zero()};
-    std::optional<Vec3> velocity;
-  };
   struct Followed {
     FollowedSource source;
     std::optional<nav_msgs::Odometry> odometry;

@@ -23,8 +23,8 @@ class Announcements {
   /// begun. @throws InvalidInput for more than MOST listeners.
   void put(const std::string& kind, const std::string& id, const Value& value, Nanoseconds stamp) {
     if (entries_.size() >= MOST && !entries_.count(id))
-      throw InvalidInput(kind + " '" + id + "' is one more than the " + std::to_string(MOST) +
-                         " allowed at once");
+      throw InvalidInput(kind + " " + inQuotes(id) + " is one more than the " +
+                         std::to_string(MOST) + " allowed at once");
     entries_[id] = {value, stamp};
   }
   /// Returns the values in order of ids. Forgets listeners without messages for LIFE.

@@ -43,13 +43,13 @@ void readPreset(Parameters& parameters, scan::Lidar& lidar) {
     const bool named = preset.find_first_of("/.") == std::string::npos;
     const std::string file = named ? folder + "/" + preset + ".yaml" : resolveFile(preset);
     if (named && !std::filesystem::exists(file))
-      return parameters.fault("preset", "= '" + preset + "' is none of " + namesOfPresets(folder) +
-                                            ", and no path of a file");
+      return parameters.fault("preset", "= " + inQuotes(preset) + " is none of " +
+                                            namesOfPresets(folder) + ", and no path of a file");
     YamlSection section(loadYamlFile(file), file, parameters.faults());
     describe(section, lidar);
     section.finish();
   } catch (const InvalidInput& error) {
-    parameters.fault("preset", "= '" + preset + "': " + error.what());
+    parameters.fault("preset", "= " + inQuotes(preset) + ": " + error.what());
   }
 }
 

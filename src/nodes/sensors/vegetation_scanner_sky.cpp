@@ -29,7 +29,7 @@ Vec3 VegetationScanner::placeOf(const std::string& frame) const {
   const Vec3 out =
       poseInWorld(tf_buffer_, options_.frame_id, frame, toStamp(clock_.stamp())).position;
   Faults faults;
-  checkPlace("the origin of '" + frame + "'", out, faults);
+  checkPlace("the origin of " + inQuotes(frame), out, faults);
   faults.throwIfAny();
   return out;
 }

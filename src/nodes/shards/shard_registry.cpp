@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/shards/shard_registry.h"
 
+#include <ros/names.h>
+
 #include <tuple>
 
 #include "vegetation_sim/core/config/faults.h"
@@ -10,6 +12,16 @@ namespace vegetation_sim {
 namespace {
 
 constexpr std::chrono::seconds LONGEST_SILENCE{3};
+constexpr std::size_t LONGEST_NODE = 256;  // letters of a name
+
+// roscpp throws for a service below another name.
+void checkName(const std::string& node) {
+  std::string why;
+  if (node.empty() || node.size() > LONGEST_NODE || node[0] != '/' ||
+      !ros::names::validate(node, why))
+    throw InvalidInput("node = " + inQuotes(node) + "; allowed are resolved names of up to " +
+                       std::to_string(LONGEST_NODE) + " letters");
+}
 
 }  // namespace
 
@@ -18,6 +30,7 @@ std::string describeShard(std::uint32_t shard, std::uint32_t count) {
 }
 
 void ShardRegistry::checkFit(const ShardNode& message) const {
+  checkName(message.node);
   const std::string who = message.node + " is " + describeShard(message.shard, message.shards);
   const auto refuse = [&](const char* what, const std::string& value, const std::string& allowed) {
     throw InvalidInput(who + " with " + what + " = " + value + "; allowed is that of this node, " +

@@ -34,8 +34,8 @@ class ShardRegistry {
   const std::string& node() const { return own_.node; }
   const ShardNode& own() const { return own_; }
   /// Takes an announcement; the latest one of a shard counts.
-  /// @throws InvalidInput that names the node if it does not fit: it has this shard, another number
-  /// of shards, or another layout, terrain, rate or version of messages.
+  /// @throws InvalidInput that names the node if it does not fit: it has no valid name, this shard,
+  /// another number of shards, or another layout, terrain, rate or version of messages.
   /// @param process name of the ROS node that has sent it, in which the nodelet may run.
   void hear(const ShardNode& message, const std::string& process, SteadyTime now);
   /// @throws InvalidInput that names both processes, unless the sender of a message of a shard is

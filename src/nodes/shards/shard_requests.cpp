@@ -4,18 +4,13 @@
 
 #include <boost/make_shared.hpp>
 #include <cstdio>
-#include <thread>
 #include <utility>
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::uint32_t THREADS = 4;           // that answer requests
-constexpr int MOST_CALLS = MOST_SHARDS;        // of other nodes at once, from this process
-constexpr int ATTEMPTS = 3;                    // to connect
 constexpr std::chrono::milliseconds POLL{20};  // of stop()
-
-std::atomic<int> running_calls{0};
 
 /// A function that runs once in the thread of a queue.
 class QueuedBody final : public ros::CallbackInterface {
@@ -87,30 +82,18 @@ std::shared_ptr<ShardRequests::Call> ShardRequests::begin(
     throw InvalidInput(describeShard(shard, registry_.shard().count) + ", " + out->peer->node +
                            ", has not answered an earlier request yet",
                        FaultCode::NOT_AVAILABLE);
-  if (++running_calls > MOST_CALLS) {
-    --running_calls;
-    throw InvalidInput("requests to other shards = " + std::to_string(MOST_CALLS + 1) +
-                           " is outside 0 to " + std::to_string(MOST_CALLS),
-                       FaultCode::NO_ROOM);
-  }
+  const std::string service = out->peer->node + "/owned/" + name;
+  startCall([=] { return callService(service, call, repeat); },
+            [out](CallResult result) {
+              if (out->settled.exchange(true)) --out->peer->overdue;
+              out->result.set_value(result);
+            });
   ++sent_;
-  std::thread([out, call, repeat] {
-    const std::string service = out->peer->node + "/owned/" + out->name;
-    Call::Result result = Call::NOT_REACHED;
-    for (int i = 0; i < ATTEMPTS && result != Call::ANSWERED && ros::ok(); ++i) {
-      if (!ros::service::exists(service, false)) continue;
-      result = call(service) ? Call::ANSWERED : Call::BROKEN;
-      if (repeat == Repeat::FORBIDDEN) break;
-    }
-    --running_calls;
-    if (out->settled.exchange(true)) --out->peer->overdue;
-    out->result.set_value(result);
-  }).detach();
   return out;
 }
 
 void ShardRequests::finish(Call& call, Clock::time_point deadline) const {
-  std::future<Call::Result> result = call.result.get_future();
+  std::future<CallResult> result = call.result.get_future();
   while (result.wait_until(std::min(deadline, Clock::now() + POLL)) != std::future_status::ready) {
     if (stopped_) throw endOfNode();
     if (Clock::now() >= deadline) break;
@@ -125,14 +108,14 @@ void ShardRequests::finish(Call& call, Clock::time_point deadline) const {
                        FaultCode::NOT_AVAILABLE);
   }
   switch (result.get()) {
-    case Call::NOT_REACHED:
+    case CallResult::NOT_REACHED:
       throw InvalidInput(who + " ~" + call.name + ": it cannot be reached",
                          FaultCode::NOT_AVAILABLE);
-    case Call::BROKEN:
+    case CallResult::BROKEN:
       throw InvalidInput(
           who + " ~" + call.name + ": the connection broke; it may have carried out the request",
           FaultCode::NOT_AVAILABLE);
-    case Call::ANSWERED:
+    case CallResult::ANSWERED:
       break;
   }
 }

@@ -14,13 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "nodes/shards/shard_call.h"
 #include "nodes/shards/shard_registry.h"
 #include "ros/services/service_replies.h"
 
 namespace vegetation_sim {
-
-/// Whether a request may be sent again after its connection broke: it may have been carried out.
-enum class Repeat { FORBIDDEN, ALLOWED };
 
 /// The response of one shard; of one that does not answer, a refusal that says so.
 template <class Response>
@@ -72,8 +70,7 @@ class ShardRequests {
     std::uint32_t shard{0};
     std::shared_ptr<ShardRegistry::Peer> peer;
     std::string name;
-    enum Result { NOT_REACHED, BROKEN, ANSWERED };
-    std::promise<Result> result;
+    std::promise<CallResult> result;
     std::atomic<bool> settled{false};  // it has ended or is overdue
   };
   std::shared_ptr<Call> begin(std::uint32_t shard, const std::string& name,
@@ -111,7 +108,7 @@ std::vector<ShardReply<Response>> ShardRequests::ask(
           [own = std::make_shared<Request>(request), response = asked[i].response](
               const std::string& service) { return ros::service::call(service, *own, *response); },
           repeat);
-    } catch (const InvalidInput&) {
+    } catch (const std::exception&) {
       asked[i].fault = std::current_exception();
     }
   }

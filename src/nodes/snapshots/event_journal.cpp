@@ -103,19 +103,23 @@ void EventJournal::write(const std::string& bytes) {
   size_ += bytes.size();
 }
 
-std::vector<JournalRecord> EventJournal::read(std::uint64_t checkpoint) const {
+std::vector<JournalRecord> readRecords(const std::string& bytes, std::uint64_t checkpoint) {
   std::vector<JournalRecord> out;
-  const std::optional<std::string> bytes = contentOf(file_, LARGEST_SNAPSHOT);
-  if (!bytes || bytes->size() < KEY_BYTES) return out;
+  if (bytes.size() < KEY_BYTES) return out;
   std::uint64_t found = 0;
-  Archive head = Archive::reading(bytes->substr(0, KEY_BYTES));
+  Archive head = Archive::reading(bytes.substr(0, KEY_BYTES));
   head.key(found);
   if (found != checkpoint) return out;
   for (std::size_t at = KEY_BYTES;;) {
-    std::optional<JournalRecord> record = readRecord(*bytes, at);
+    std::optional<JournalRecord> record = readRecord(bytes, at);
     if (!record) return out;
     out.push_back(std::move(*record));
   }
+}
+
+std::vector<JournalRecord> EventJournal::read(std::uint64_t checkpoint) const {
+  const std::optional<std::string> bytes = contentOf(file_, LARGEST_SNAPSHOT);
+  return bytes ? readRecords(*bytes, checkpoint) : std::vector<JournalRecord>();
 }
 
 }  // namespace vegetation_sim

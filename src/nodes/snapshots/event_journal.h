@@ -23,6 +23,10 @@ struct JournalRecord {
   std::vector<StoredEvent> events;
 };
 
+/// Returns the records in the bytes of a journal up to the first that is not complete; none if they
+/// continue another checkpoint. @throws InvalidInput for a complete record that is none.
+std::vector<JournalRecord> readRecords(const std::string& bytes, std::uint64_t checkpoint);
+
 /// The inputs and ticks of a node since its last checkpoint, in a file. An input is written when it
 /// arrives and a tick when its inputs are applied, so that a node that is killed at any instant
 /// finds all of them. The functions throw InvalidInput that names the file.

@@ -61,7 +61,8 @@ NodeSnapshots::Loadable NodeSnapshots::read(const std::string& name, const std::
     if (out.shift != 0) out.state = calls_.read(file.payload, out.shift);
     return out;
   } catch (const std::exception& error) {
-    throw InvalidInput("snapshot '" + name + "': " + error.what(), FaultCode::FILE_REJECTED);
+    throw InvalidInput("snapshot " + inQuotes(name) + ": " + error.what(),
+                       FaultCode::FILE_REJECTED);
   }
 }
 

@@ -23,7 +23,7 @@ FrameFollower::FrameFollower(const tf2_ros::Buffer& buffer, const WindSettings& 
 void FrameFollower::set(const wind::Source& source) {
   const std::string& name = source.primitive.name;
   if (!follows(name) && attachments_.size() >= WindSettings::MAX_FOLLOWED)
-    throw InvalidInput("primitive '" + name + "': " + std::to_string(attachments_.size()) +
+    throw InvalidInput("primitive " + inQuotes(name) + ": " + std::to_string(attachments_.size()) +
                            " frames are followed already, allowed are " +
                            std::to_string(WindSettings::MAX_FOLLOWED),
                        FaultCode::NO_ROOM);
@@ -51,7 +51,7 @@ bool FrameFollower::sample(wind::Attachment& attachment, Nanoseconds now, const 
     if (faults.empty())
       if (std::optional<double> jump = attachment.add(point))
         checker.number("speed", *jump, "m/s", wind::BODY_SPEEDS);
-    if (!faults.empty()) report("frame '" + frame + "'", faults.text());
+    if (!faults.empty()) report("frame " + inQuotes(frame), faults.text());
     return true;
   } catch (const tf2::TransformException&) {
     return false;
@@ -92,7 +92,7 @@ void FrameFollower::archive(Archive& a, Attachments& attachments) const {
     attachment.archive(a);
     const std::string name = attachment.source().primitive.name;
     if (!attachments.emplace(name, std::move(attachment)).second)
-      Archive::reject("followed source = '" + name + "'", "is there twice");
+      Archive::reject("followed source = " + inQuotes(name), "is there twice");
   }
 }
 

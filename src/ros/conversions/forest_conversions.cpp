@@ -62,7 +62,7 @@ Enum valueOf(const std::string& name, const std::string& word, Faults& faults) {
     if (names[i] == word) return static_cast<Enum>(i);
     allowed += (i ? ", " : "") + names[i];
   }
-  faults.add("layout: " + name + " = '" + word + "' is none of " + allowed);
+  faults.add("layout: " + name + " = " + inQuotes(word) + " is none of " + allowed);
   return Enum{};
 }
 
@@ -254,9 +254,13 @@ forest::Layout fromMsg(const ForestLayout& message) {
   if (message.species.size() > MOST_SPECIES)
     throw InvalidInput("layout: " + std::to_string(message.species.size()) +
                        " species, more than the " + std::to_string(MOST_SPECIES) + " allowed");
+  std::vector<NamedText> rules;
+  for (const Species& species : message.species) rules.push_back({species.name, species.rules});
+  if (!keepLimits("layout: species", rules, faults)) faults.throwIfAny();
   for (const Species& species : message.species) {
     try {
-      out.species.push_back(forest::parseSpecies(species.rules, "species " + species.name));
+      out.species.push_back(
+          forest::parseSpecies(species.rules, "species " + shortened(species.name)));
     } catch (const InvalidInput& error) {
       faults.add(error.what());
     }

@@ -55,7 +55,7 @@ grass::LayerInput layerFromMsg(const std::string& name, const GrassLayer& messag
 grass::SpeciesInput speciesFromMsg(const GrassSpecies& message, Faults& faults) {
   grass::SpeciesInput out;
   out.species.name = message.name;
-  const std::string name = "species '" + message.name + "'";
+  const std::string name = "species " + inQuotes(message.name);
   try {
     YamlSection section(parseYaml(message.rules, name), "layout: " + name, faults);
     describe(section, out.species);
@@ -70,7 +70,7 @@ grass::SpeciesInput speciesFromMsg(const GrassSpecies& message, Faults& faults) 
 grass::BladeModel bladeModelOf(const std::string& name, Faults& faults) {
   for (int i = 0; i < 2; ++i)
     if (name == BLADE_MODELS[i]) return static_cast<grass::BladeModel>(i);
-  faults.add("layout: blade_model = '" + name + "' is none of arc, paper");
+  faults.add("layout: blade_model = " + inQuotes(name) + " is none of arc, paper");
   return {};
 }
 
@@ -85,10 +85,13 @@ grass::MapInput mapFromMsg(const GrassLayout& message, Faults& faults) {
   out.density = layerFromMsg("density", message.density, faults);
   out.colour = layerFromMsg("colour", message.colour, faults);
   out.shape = layerFromMsg("shape", message.shape, faults);
+  std::vector<NamedText> rules;
+  for (const GrassSpecies& species : message.species)
+    rules.push_back({species.name, species.rules});
   if (message.species.size() > grass::MAX_SPECIES)
     faults.add("layout: " + std::to_string(message.species.size()) + " species, allowed are " +
                std::to_string(grass::MAX_SPECIES));
-  else
+  else if (keepLimits("layout: species", rules, faults))
     for (const GrassSpecies& species : message.species)
       out.species.push_back(speciesFromMsg(species, faults));
   return out;

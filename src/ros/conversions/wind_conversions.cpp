@@ -78,8 +78,9 @@ wind::Source sourceFromMsg(const WindPrimitive& message, const std::string& fram
   for (std::size_t i = 0; i < message.trajectory.size(); ++i) {
     const std::string& frame = message.trajectory[i].header.frame_id;
     if (!frame.empty() && frame != frame_id)
-      faults.add("primitive '" + message.name + "': trajectory[" + std::to_string(i) +
-                 "].header.frame_id = '" + frame + "' is not '" + frame_id + "' or empty");
+      faults.add("primitive " + inQuotes(message.name) + ": trajectory[" + std::to_string(i) +
+                 "].header.frame_id = " + inQuotes(frame) + " is not " + inQuotes(frame_id) +
+                 " or empty");
   }
   return {fromMsg(message), message.attached_frame};
 }

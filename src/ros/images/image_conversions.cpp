@@ -104,8 +104,8 @@ sensor_msgs::CameraInfo toMsg(const scan::Lens& lens) {
 scan::Lens fromMsg(const sensor_msgs::CameraInfo& message, const std::string& context) {
   Faults faults;
   if (message.distortion_model != sensor_msgs::distortion_models::PLUMB_BOB)
-    faults.add(context + "distortion_model = '" + message.distortion_model.substr(0, 60) +
-               "' is not plumb_bob");
+    faults.add(context + "distortion_model = " + inQuotes(message.distortion_model) +
+               " is not plumb_bob");
   if (message.D.size() != 5)
     faults.add(context + "D has " + std::to_string(message.D.size()) + " numbers, allowed are 5");
   faults.throwIfAny();

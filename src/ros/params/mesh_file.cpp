@@ -39,8 +39,8 @@ std::string endingOf(const std::string& name) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   if (std::find(ENDINGS.begin(), ENDINGS.end(), ending) == ENDINGS.end())
-    throw InvalidInput(name + ": no mesh: it ends in '" + own +
-                       "', allowed are .dae, .obj, .ply and .stl");
+    throw InvalidInput(name + ": no mesh: it ends in " + inQuotes(own) +
+                       ", allowed are .dae, .obj, .ply and .stl");
   return ending;
 }
 

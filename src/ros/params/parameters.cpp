@@ -148,7 +148,7 @@ void Parameters::choice(const char* name, int& value, const std::vector<std::str
     }
     allowed += (i ? ", " : "") + names[i];
   }
-  faults_.add(handle_.resolveName(name) + " = '" + word + "' is none of " + allowed);
+  faults_.add(handle_.resolveName(name) + " = " + inQuotes(word) + " is none of " + allowed);
 }
 
 void Parameters::text(const char* name, std::string& value) {
@@ -161,7 +161,7 @@ void Parameters::text(const char* name, std::string& value) {
 void Parameters::frame(const char* name, std::string& value, bool may_be_empty) {
   text(name, value);
   if (value.empty() && !may_be_empty) fault(name, "= '' is empty");
-  if (!value.empty() && value[0] == '/') fault(name, "= '" + value + "' begins with '/'");
+  if (!value.empty() && value[0] == '/') fault(name, "= " + inQuotes(value) + " begins with '/'");
 }
 
 void Parameters::frames(const char* name, std::vector<std::string>& values, std::size_t most) {
@@ -181,8 +181,8 @@ void Parameters::frames(const char* name, std::vector<std::string>& values, std:
         return wrongType(name, found, "a list of frames");
       const std::string frame = static_cast<std::string>(list[i]);
       if (frame.empty() || frame[0] == '/')
-        fault(name, "has '" + frame + "', which is empty or begins with '/'");
-      if (!read.insert(frame).second) fault(name, "has '" + frame + "' twice");
+        fault(name, "has " + inQuotes(frame) + ", which is empty or begins with '/'");
+      if (!read.insert(frame).second) fault(name, "has " + inQuotes(frame) + " twice");
       values.push_back(frame);
     }
   }

@@ -85,8 +85,8 @@ void readPictures(const std::string& file, const FindFile& find,
         found->second.picture =
             std::make_shared<const std::string>(readFile(path, LARGEST_TEXTURE));
       } catch (const InvalidInput&) {  // its text may show more than the message names
-        found->second.fault = "texture '" + material.texture +
-                              "' cannot be opened here, or has more than " +
+        found->second.fault = "texture " + inQuotes(material.texture) +
+                              " cannot be opened here, or has more than " +
                               std::to_string(LARGEST_TEXTURE) + " bytes";
       }
     }
@@ -148,7 +148,7 @@ void loadPublishedForms(canopy::Layout& layout, const std::vector<std::string>& 
       try {
         loadForm(file, find, kind);
       } catch (const InvalidInput&) {  // its text may show what is in the file
-        throw InvalidInput("'" + kind.file + "' is no plant here");
+        throw InvalidInput(inQuotes(kind.file, LONGEST_ADDRESS) + " is no plant here");
       }
     } catch (const InvalidInput& error) {
       faults.add("kind " + kind.name + ": " + error.what());

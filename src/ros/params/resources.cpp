@@ -62,7 +62,8 @@ std::string resolveFile(const std::string& name, const std::string& folder) {
   const std::size_t slash = name.find('/', PACKAGE.size());
   const std::string package = name.substr(PACKAGE.size(), slash - PACKAGE.size());
   const std::string path = ros::package::getPath(package);
-  if (path.empty()) throw InvalidInput(name + ": package '" + package + "' is not known here");
+  if (path.empty())
+    throw InvalidInput(name + ": package " + inQuotes(package) + " is not known here");
   return path + (slash == std::string::npos ? "" : name.substr(slash));
 }
 
@@ -75,8 +76,8 @@ std::string findPublishedFile(const std::string& address, const std::vector<std:
   } else if (std::filesystem::path(address).is_absolute()) {
     if (isInOneOf(address, folders) || isInOneOf(address, packageFolders())) return address;
   }
-  throw InvalidInput("file '" + address.substr(0, 200) +
-                     "' is in no package and in no folder of the parameter resource_folders");
+  throw InvalidInput("file " + inQuotes(address, LONGEST_ADDRESS) +
+                     " is in no package and in no folder of the parameter resource_folders");
 }
 
 std::vector<std::string> resourceFolders() {
@@ -96,7 +97,8 @@ std::shared_ptr<const terrain::HeightMap> loadPublishedTerrain(
   try {
     return loadTerrain(file);
   } catch (const InvalidInput&) {  // its text may show what is in the file
-    throw InvalidInput("terrain = '" + address + "' is no height map here");
+    throw InvalidInput("terrain = " + inQuotes(address, LONGEST_ADDRESS) +
+                       " is no height map here");
   }
 }
 

@@ -72,8 +72,8 @@ void SubscribedMeadow::setLayout(const GrassLayout& message) {
     if (ready() && replica_.shards() > 1 && layout.hash() == layout_hash_) return describeLayout();
     auto terrain = loadPublishedTerrain(layout.terrain);
     if (terrain->hash() != layout.terrain_hash)
-      throw InvalidInput("layout: terrain = '" + layout.terrain +
-                         "' has other heights here than where it was made");
+      throw InvalidInput("layout: terrain = " + inQuotes(layout.terrain, LONGEST_ADDRESS) +
+                         " has other heights here than where it was made");
     grass::TreadSettings settings;
     settings.spacing = layout.tread_spacing;
     settings.memory_cap = MEMORY_CAP;

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 
+#include "vegetation_sim/core/config/faults.h"
+
 namespace vegetation_sim {
 namespace {
 
 constexpr int MOST_LINES = 5;  // of a status that people read
 
-std::string beginningOf(const std::string& text) {
+std::string beginningOf(const std::string& all) {
+  const std::string text = shortened(all, LONGEST_ERROR);
   std::size_t end = 0;
   for (int line = 0; line < MOST_LINES; ++line) {
     end = text.find('\n', end + (line > 0 ? 1 : 0));
@@ -40,7 +43,7 @@ void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const Tick
 
 void Refusals::add(const std::string& what, const std::string& why) {
   ++count_;
-  last_ = what + ": " + why;
+  last_ = shortened(what + ": " + why, LONGEST_ERROR);
   const ros::WallTime now = ros::WallTime::now();
   if (now < quiet_until_) return;
   quiet_until_ = now + ros::WallDuration(1.0);

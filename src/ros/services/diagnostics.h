@@ -14,7 +14,7 @@
 namespace vegetation_sim {
 
 /// Warns on /diagnostics of events since the last report. A text of many lines is cut, with the
-/// number of lines left out.
+/// number of lines left out, and a long one as errors are.
 void warnOfMore(diagnostic_updater::DiagnosticStatusWrapper& status, std::uint64_t now,
                 std::uint64_t reported, const std::string& what);
 void warnOfClock(diagnostic_updater::DiagnosticStatusWrapper& status, const TickClock::Counts& now,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -70,7 +71,8 @@ geometry_msgs::TransformStamped FrameLookup::find(const std::string& frame) {
   ++late_;
   missing = missing_.find(frame);
   if (!missing->second.last)
-    throw tf2::LookupException("'" + frame + "' has no transform to '" + world_ + "' in time");
+    throw tf2::LookupException(inQuotes(frame) + " has no transform to " + inQuotes(world_) +
+                               " in time");
   return *missing->second.last;
 }
 

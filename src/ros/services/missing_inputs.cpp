@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "vegetation_sim/core/config/faults.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr int UNLOGGED = 2;
 }  // namespace
 
 std::string describeMissingTransform(const std::string& frame, const std::string& world) {
-  return "no transform from '" + frame + "' to '" + world + "'";
+  return "no transform from " + inQuotes(frame) + " to " + inQuotes(world);
 }
 
 void MissingInputs::add(const std::string& sentence) {

@@ -25,7 +25,7 @@ std::string describeFrames(const tf2_ros::Buffer& buffer) {
   std::sort(frames.begin(), frames.end());
   std::string out = "tf knows ";
   for (std::size_t i = 0; i < std::min(frames.size(), MOST_NAMES); ++i)
-    out += (i == 0 ? "'" : ", '") + frames[i] + "'";
+    out += (i == 0 ? "" : ", ") + inQuotes(frames[i]);
   if (frames.size() > MOST_NAMES)
     out += " and " + std::to_string(frames.size() - MOST_NAMES) + " others";
   return out;
@@ -39,8 +39,8 @@ geometry_msgs::TransformStamped transformToWorld(const tf2_ros::Buffer& buffer,
   try {
     return buffer.lookupTransform(world, frame, stamp);
   } catch (const tf2::TransformException& error) {
-    throw InvalidInput(std::string(name) + " = '" + frame + "' is not known in '" + world +
-                           "': " + error.what() + "; " + describeFrames(buffer),
+    throw InvalidInput(std::string(name) + " = " + inQuotes(frame) + " is not known in " +
+                           inQuotes(world) + ": " + error.what() + "; " + describeFrames(buffer),
                        FaultCode::NO_TRANSFORM);
   }
 }
@@ -53,8 +53,8 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
 
 void checkFrame(const std::string& frame, const std::string& world) {
   if (frame != world)
-    throw InvalidInput("frame_id = '" + frame + "', allowed is the world frame of this node, '" +
-                       world + "'");
+    throw InvalidInput("frame_id = " + inQuotes(frame) +
+                       ", allowed is the world frame of this node, " + inQuotes(world));
 }
 
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {

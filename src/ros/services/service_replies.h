@@ -40,7 +40,7 @@ bool answer(Response& response, Body body) {
     response = Response();
     setErrorCode(response, codeOf(error));
     response.success = false;
-    response.message = error.what();
+    response.message = shortened(error.what(), LONGEST_ERROR);
   }
   return true;
 }

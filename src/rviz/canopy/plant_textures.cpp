@@ -58,7 +58,7 @@ int PlantTextures::addPicture(const std::string& kind, const canopy::FaceMateria
     return -1;
   };
   if (!material.picture) return refuse(material.fault);
-  const std::string name = "texture '" + material.texture + "' ";
+  const std::string name = "texture " + inQuotes(material.texture) + " ";
   if (pictures_.size() >= static_cast<std::size_t>(MOST_PICTURES))
     return refuse(name + "is one more than the " + std::to_string(MOST_PICTURES) + " allowed");
   try {

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -15,6 +16,14 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr std::chrono::milliseconds PATIENCE(500);
+
+void runGuarded(const std::function<void()>& task) {
+  try {
+    task();
+  } catch (const std::exception& error) {
+    ROS_ERROR("A background task of rviz failed: %s", error.what());
+  }
+}
 
 }  // namespace
 
@@ -24,10 +33,15 @@ struct AsyncTasks::Queue {
   std::deque<std::function<void()>> waiting;
   std::size_t left{0};
   bool ending{false};
+  bool has_thread{true};
 };
 
 AsyncTasks::AsyncTasks() : queue_(std::make_shared<Queue>()) {
-  std::thread([queue = queue_] { run(*queue); }).detach();
+  try {
+    std::thread([queue = queue_] { run(*queue); }).detach();
+  } catch (const std::system_error&) {
+    queue_->has_thread = false;  // the system has no more; tasks run where they are added
+  }
 }
 
 AsyncTasks::~AsyncTasks() {
@@ -38,6 +52,7 @@ AsyncTasks::~AsyncTasks() {
 }
 
 void AsyncTasks::add(std::function<void()> task) {
+  if (!queue_->has_thread) return runGuarded(task);
   const std::lock_guard<std::mutex> lock(queue_->mutex);
   queue_->waiting.push_back(std::move(task));
   ++queue_->left;
@@ -57,11 +72,7 @@ void AsyncTasks::run(Queue& queue) {
     std::function<void()> task = std::move(queue.waiting.front());
     queue.waiting.pop_front();
     lock.unlock();
-    try {
-      task();
-    } catch (const std::exception& error) {
-      ROS_ERROR("A background task of rviz failed: %s", error.what());
-    }
+    runGuarded(task);
     lock.lock();
     --queue.left;
     queue.changed.notify_all();

@@ -11,7 +11,8 @@
 namespace vegetation_sim::view {
 
 /// Runs tasks one after the other in a thread beside the render thread, so that a slow service does
-/// not block rendering. A task owns what it uses, since it may outlive its sender.
+/// not block rendering; in the render thread if the system has no more threads. A task owns what it
+/// uses, since it may outlive its sender.
 class AsyncTasks {
  public:
   AsyncTasks();

@@ -72,7 +72,7 @@ class LayoutReader {
     if (found != number_.end()) return found->second;
     std::string known;
     for (const auto& entry : number_) known += (known.empty() ? "" : ", ") + entry.first;
-    section.fault("species", "= '" + name + "' is none of " + known);
+    section.fault("species", "= " + inQuotes(name) + " is none of " + known);
     return 0;
   }
 

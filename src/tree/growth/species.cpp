@@ -102,8 +102,11 @@ double expectedBranches(const Species& species) {
 }
 
 void check(Species species, Faults& faults) {
-  const std::string context = "species " + species.name + ": ";
+  const std::string context = "species " + shortened(species.name) + ": ";
   if (species.name.empty()) faults.add("species: name is empty");
+  if (species.name.size() > LONGEST_YAML_NAME)
+    faults.add(context + "name has " + std::to_string(species.name.size()) +
+               " letters, more than the " + std::to_string(LONGEST_YAML_NAME) + " allowed");
   if (species.limbs.empty() || species.depths() > MAX_DEPTHS) {
     faults.add(context + "limbs has " + std::to_string(species.limbs.size()) +
                " rules, outside 1 to " + std::to_string(MAX_DEPTHS));
@@ -190,7 +193,7 @@ Species readSpecies(YamlSection section) {
   describeHabit(section, species);
   describeStrength(section, species);
   describeFluid(section, species);
-  std::vector<YamlSection> limbs = section.sections("limbs");
+  std::vector<YamlSection> limbs = section.sections("limbs", MAX_DEPTHS);
   if (!limbs.empty()) species.limbs.clear();
   for (YamlSection& limb : limbs) {
     LimbRule rule;

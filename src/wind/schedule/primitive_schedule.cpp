@@ -40,7 +40,7 @@ void PrimitiveSchedule::start(const std::vector<Primitive>& primitives) {
   std::uint32_t id = next_id_;
   for (Primitive p : primitives) {
     if (latest(entries, p.name) != nullptr)
-      throw InvalidInput("primitive '" + p.name + "': name is already in use");
+      throw InvalidInput("primitive " + inQuotes(p.name) + ": name is already in use");
     p.id = id++;
     entries.push_back({p, KEEP_EDITED});
   }
@@ -75,7 +75,7 @@ Primitive PrimitiveSchedule::follow(Primitive p, Nanoseconds earliest) {
 Nanoseconds PrimitiveSchedule::freeFrom(const Primitive& old, Nanoseconds wanted, Faults& faults) {
   const Nanoseconds begin = std::max(wanted, old.t_on + fromSeconds(old.fade_in));
   if (begin - wanted > LONGEST_WAIT)
-    faults.add("primitive '" + old.name + "' is still fading in until " + seconds(begin) +
+    faults.add("primitive " + inQuotes(old.name) + " is still fading in until " + seconds(begin) +
                "; an edit waits for that at most " + seconds(LONGEST_WAIT));
   return begin;
 }
@@ -83,7 +83,7 @@ Nanoseconds PrimitiveSchedule::freeFrom(const Primitive& old, Nanoseconds wanted
 Primitive PrimitiveSchedule::put(Primitive p, Nanoseconds earliest, Change change) {
   Faults faults;
   if (p.t_on != 0 && p.t_on < earliest)
-    faults.add("primitive '" + p.name + "': t_on = " + seconds(p.t_on) + " is before " +
+    faults.add("primitive " + inQuotes(p.name) + ": t_on = " + seconds(p.t_on) + " is before " +
                seconds(earliest) + ", the earliest stamp that all subscribers can receive in time");
   if (p.t_on == 0) p.t_on = earliest;
   check(p, faults);
@@ -112,9 +112,9 @@ void PrimitiveSchedule::remove(const std::string& name, Nanoseconds earliest) {
   if (!find(name, earliest)) {
     std::string known;
     for (const std::string& other : names(earliest)) known += (known.empty() ? "" : ", ") + other;
-    throw InvalidInput(
-        "no source is named '" + name + "'; known sources: " + (known.empty() ? "none" : known),
-        FaultCode::UNKNOWN);
+    throw InvalidInput("no source is named " + inQuotes(name) +
+                           "; known sources: " + (known.empty() ? "none" : known),
+                       FaultCode::UNKNOWN);
   }
   Entries entries = entries_;
   dropPending(entries, name, earliest);

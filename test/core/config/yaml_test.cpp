@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error_text.h"
+#include "heap.h"
 
 namespace vegetation_sim {
 namespace {
@@ -131,6 +132,46 @@ TEST(ParseYaml, FaultsQuoteTheBeginningOfALongValue) {
   const std::string fault = read("height: " + std::string(100000, 'x'), kite);
   EXPECT_LT(fault.size(), 200u);
   EXPECT_NE(fault.find("height"), std::string::npos);
+}
+
+// Each section has a copy of the path, which may have the name of a species.
+TEST(YamlSection, ReadsNoLongerListsThanAllowed) {
+  std::string text = "kites: [a";
+  for (int i = 0; i < 99999; ++i) text += ",a";
+  Faults faults;
+  YamlSection yaml(parseYaml(text + "]", "k.yaml"), std::string(1000, 'n'), faults);
+  restartPeak();
+  const long before = liveBytes();
+  EXPECT_TRUE(yaml.sections("kites", 5).empty());
+  EXPECT_LT(peakBytes() - before, 1 << 20);
+  ASSERT_EQ(faults.list().size(), 1u);
+  EXPECT_EQ(faults.list()[0].substr(998), "nn: kites has 100000 entries, more than the 5 allowed");
+}
+
+TEST(YamlSection, DescribesNoMoreUnknownKeysThanFaultsAreKept) {
+  const auto allocations = [](int keys) {
+    std::string text;
+    for (int i = 0; i < keys; ++i) text += "k" + std::to_string(i) + ": 1\n";
+    Faults faults;
+    YamlSection yaml(parseYaml(text, "k.yaml"), std::string(100, 'n'), faults);
+    const std::size_t before = allocationCount();
+    yaml.finish();
+    EXPECT_EQ(faults.list().size(), 100u);
+    return allocationCount() - before;
+  };
+  EXPECT_LT(allocations(10100), allocations(100) + 15000);  // less than two for each other key
+}
+
+TEST(KeepLimits, BoundsNamesAndTheSumOfTheTexts) {
+  const std::string name(256, 'n'), longer(257, 'n'), half(1 << 19, ' '), more((1 << 19) + 1, ' ');
+  Faults none, faults;
+  EXPECT_TRUE(keepLimits("species", {{name, half}, {"oak", half}}, none));
+  EXPECT_TRUE(none.empty());
+  EXPECT_FALSE(keepLimits("species", {{longer, half}, {"oak", more}}, faults));
+  EXPECT_EQ(faults.text(),
+            "species " + inQuotes(longer) +
+                ": name has 257 letters, more than the 256 allowed\n"
+                "species: rules have 1048577 bytes together, more than the 1048576 allowed");
 }
 
 TEST(YamlFieldWriter, WritesWhatIsReadBackToTheBit) {

@@ -3,15 +3,14 @@
 #include "core/threads/thread_pool.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "sanitized.h"
+#include "thread_limit.h"
 
 namespace vegetation_sim {
 namespace {
@@ -63,15 +62,6 @@ TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolGoesOn) {
   pool.run(1, [&](std::size_t) { ++calls; });
   EXPECT_EQ(calls, 1);
   EXPECT_THROW(pool.run(6, fail), std::runtime_error);
-}
-
-// Leaves no address space for the stacks of threads.
-void exhaustThreads() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t limit = pages * 4096 + (1u << 20);
-  const rlimit all{limit, limit};
-  setrlimit(RLIMIT_AS, &all);
 }
 
 TEST(ThreadPoolDeathTest, WithoutThreadsTheCallerDoesAllParts) {

@@ -116,6 +116,20 @@ TEST(ShardRegistry, NamesNodesThatDoNotFit) {
   EXPECT_TRUE(registry.isEarlier(announced(2, 2, "/other")));
 }
 
+// Services below the name of a node are called by name.
+TEST(ShardRegistry, RefusesInvalidNames) {
+  ShardRegistry registry(announced(1, 3, "/own"));
+  for (const std::string& name : {"", "/bad name", "relative", "~private", "/a!", "/\n"})
+    EXPECT_EQ(errorOf([&] { registry.hear(announced(2, 3, name), PROCESS, BEGIN); }),
+              "node = '" + name + "'; allowed are resolved names of up to 256 letters");
+  const std::string longest = "/" + std::string(255, 'a');
+  EXPECT_EQ(errorOf([&] { registry.hear(announced(2, 3, longest + "a"), PROCESS, BEGIN); }),
+            "node = " + inQuotes(longest) + "; allowed are resolved names of up to 256 letters");
+  EXPECT_FALSE(registry.isOpen(2));
+  registry.hear(announced(2, 3, longest), PROCESS, BEGIN);
+  EXPECT_TRUE(registry.isOpen(2));
+}
+
 ShardReply<Pick::Response> reply(std::uint32_t shard, double distance, std::uint8_t error,
                                  const std::string& message) {
   ShardReply<Pick::Response> out;

@@ -60,6 +60,34 @@ TEST(ForestConversions, RefuseALayoutWithAllItsFaults) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
+// A long name would be copied for each limb and fault, and a text may have any number of them.
+TEST(ForestConversions, RefuseLongNamesAndRules) {
+  ForestLayout message = toMsg(exampleForest());
+  message.species[1].name = std::string(257, 'n');
+  message.species[1].rules = "{limbs: [a, a]}";
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "layout: species " + inQuotes(message.species[1].name) +
+                ": name has 257 letters, more than the 256 allowed");
+  message.species[1].name = "oak";
+  message.species[1].rules = "{name: " + std::string(300, 'n') + "}";
+  EXPECT_NE(errorOf([&] { fromMsg(message); }).find("...: name has 300 letters, more than"),
+            std::string::npos);
+  message.species[1].rules = "{limbs: [a, a, a, a, a, a, a]}";
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "species oak: limbs has 7 entries, more than the 6 allowed");
+  message.species[0].rules = message.species[1].rules = std::string((1 << 19) + 1, ' ');
+  EXPECT_NE(
+      errorOf([&] { fromMsg(message); }).find("bytes together, more than the 1048576 allowed"),
+      std::string::npos);
+}
+
+TEST(ForestConversions, QuoteTheBeginningOfALongWord) {
+  ForestLayout message = toMsg(exampleForest());
+  message.joint_model = std::string(100000, 'j');
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "layout: joint_model = " + inQuotes(message.joint_model) + " is none of swing, paper");
+}
+
 TEST(ForestConversions, RejectAnInvalidLayout) {
   ForestLayout message = toMsg(exampleForest());
   message.trees[0].species = 9;

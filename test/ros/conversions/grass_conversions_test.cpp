@@ -66,6 +66,18 @@ TEST(GrassConversions, RefuseALayoutWithAllItsFaults) {
     EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
 }
 
+TEST(GrassConversions, RefuseLongNamesAndRules) {
+  GrassLayout message = toMsg(exampleMeadow());
+  message.species[1].name = std::string(257, 'n');
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "layout: species " + inQuotes(message.species[1].name) +
+                ": name has 257 letters, more than the 256 allowed");
+  message.species[1].name = "poppy";
+  message.species[0].rules = message.species[1].rules = std::string((1 << 19) + 1, ' ');
+  EXPECT_EQ(errorOf([&] { fromMsg(message); }),
+            "layout: species: rules have 1048578 bytes together, more than the 1048576 allowed");
+}
+
 TEST(GrassConversions, RefuseALayoutOfAnotherHash) {
   GrassLayout message = toMsg(exampleMeadow());
   message.colour.value = 0.26;

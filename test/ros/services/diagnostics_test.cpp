@@ -47,5 +47,18 @@ TEST(Diagnostics, ReportRejectionsOnceWithTheLastReason) {
   EXPECT_EQ(refusals.count(), 2u);
 }
 
+// What other packages throw may have any length.
+TEST(Diagnostics, ReportTheBeginningOfALongReason) {
+  Refusals refusals("forest_animator");
+  refusals.add("wind", std::string(1 << 20, 'x'));
+  EXPECT_EQ(refusals.last().size(), LONGEST_ERROR + 3);
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  refusals.warn(status);
+  EXPECT_LT(status.message.size(), LONGEST_ERROR + 100);
+  status.clearSummary();
+  warnOfMore(status, 1, 0, std::string(1 << 20, 'x'));
+  EXPECT_LT(status.message.size(), LONGEST_ERROR + 100);
+}
+
 }  // namespace
 }  // namespace vegetation_sim

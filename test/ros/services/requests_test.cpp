@@ -39,5 +39,12 @@ TEST_F(UnknownFrame, IsNamedWithTheFramesThereAre) {
       << error();
 }
 
+TEST(CheckFrame, QuotesTheBeginningOfALongFrame) {
+  const std::string frame(100000, 'f');
+  checkFrame("map", "map");
+  EXPECT_EQ(errorOf([&] { checkFrame(frame, "map"); }),
+            "frame_id = " + inQuotes(frame) + ", allowed is the world frame of this node, 'map'");
+}
+
 }  // namespace
 }  // namespace vegetation_sim

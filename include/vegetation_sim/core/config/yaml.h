@@ -13,6 +13,18 @@
 
 namespace vegetation_sim {
 
+/// Limits of all YAML texts of a message together, and of the name of each [bytes].
+constexpr std::size_t LARGEST_YAML_TEXT = 1u << 20, LONGEST_YAML_NAME = 256;
+
+/// A YAML text in a message.
+struct NamedText {
+  const std::string& name;
+  const std::string& text;
+};
+/// Returns whether the sizes of texts and names keep the limits; to be called before any is parsed.
+/// Adds a fault otherwise. @param what the texts are of.
+bool keepLimits(const char* what, const std::vector<NamedText>& texts, Faults& faults);
+
 /// One map of a YAML file, read strictly: a wrong type, a value out of range and, after finish(), a
 /// key that was never read are faults that name file, key, value and allowed range. A key that is
 /// absent leaves the default. Visits a `describe` function as well as single keys.
@@ -35,8 +47,9 @@ class YamlSection : public FieldVisitor {
 
   /// Returns the map under `name`, or an empty one if it is absent. Adds a fault if it is no map.
   YamlSection section(const char* name);
-  /// Returns the maps in the list under `name`, or none if it is absent.
-  std::vector<YamlSection> sections(const char* name);
+  /// Returns the maps in the list under `name`, or none if it is absent. Adds a fault if there are
+  /// more than `most`.
+  std::vector<YamlSection> sections(const char* name, std::size_t most = 100000);
 
   /// Adds a fault of the caller about the value of `name`.
   void fault(const std::string& name, const std::string& problem);

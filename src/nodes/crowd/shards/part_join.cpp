@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/conversions/crowd_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -49,6 +50,18 @@ std::vector<AgentState> joinPeople(const PeopleLists& lists) {
 }
 
 }  // namespace
+
+void check(const CrowdPart& part, std::uint32_t shards) {
+  if (part.shard == 0 || part.shard >= shards)
+    throw InvalidInput("shard = " + std::to_string(part.shard) + " is outside 1 to " +
+                       std::to_string(shards - 1));
+  check(part.people.agents);
+  check(part.waiting);
+  for (const std::uint32_t shard : part.heard)
+    if (shard >= shards)
+      throw InvalidInput("heard = " + std::to_string(shard) + " is outside 0 to " +
+                         std::to_string(shards - 1));
+}
 
 void PartJoin::add(const CrowdPart& part) {
   const Nanoseconds stamp = fromMsg(part.people.header.stamp);

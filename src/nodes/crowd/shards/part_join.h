@@ -22,6 +22,9 @@ struct JoinedPeople {
   std::vector<AgentState> agents;  // by rising id
 };
 
+/// @throws InvalidInput for invalid people, and for a shard that shard 0 of `shards` does not hear.
+void check(const CrowdPart& part, std::uint32_t shards);
+
 /// Joins the people of the shards of a crowd. Those of a tick are complete once the parts of all
 /// shards have come. Shards that are silent and parts that come later than LONGEST_WAIT are not
 /// awaited: their people stand as they were last.
