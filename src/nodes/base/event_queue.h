@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "nodes/base/client_shares.h"
-#include "ros/time/stamp_limits.h"
+#include "ros/services/stamp_limits.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

@@ -16,8 +16,8 @@
 #include "ros/replicas/input_status.h"
 #include "ros/services/requests.h"
 #include "ros/services/rivals.h"
+#include "ros/services/stamp_limits.h"
 #include "ros/services/subscriptions.h"
-#include "ros/time/stamp_limits.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "ros/time/stamp_limits.h"
+#include "ros/services/stamp_limits.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/time/stamp_limits.h"
+#include "ros/services/stamp_limits.h"
 
 #include <cstdio>
 
