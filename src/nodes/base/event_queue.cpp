@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include "ros/services/diagnostics.h"
+#include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim {
 
@@ -23,6 +24,14 @@ void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& publ
   if (losses.lost > published.lost)
     ROS_WARN_THROTTLE(1.0, "%s: too many inputs at once; some are lost", node);
   published = losses;
+}
+
+void requireShare(const std::string& what, std::size_t own, std::size_t more, std::size_t share) {
+  if (own + more > share)
+    throw InvalidInput(what + " = " + std::to_string(own + more) + " with the " +
+                           std::to_string(more) + " of this request, allowed are 0 to " +
+                           std::to_string(share),
+                       FaultCode::NO_ROOM);
 }
 
 }  // namespace vegetation_sim

@@ -5,6 +5,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -12,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "nodes/base/client_shares.h"
+#include "ros/services/stamp_limits.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -27,6 +30,10 @@ void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const Que
                   const QueueLosses& reported);
 /// Warns on the node's console of losses that are not yet in `published`, and adds them to it.
 void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
+
+/// @throws InvalidInput, which says that there is no room, unless `own` and `more` are within
+/// `share` together.
+void requireShare(const std::string& what, std::size_t own, std::size_t more, std::size_t share);
 
 /// Stamp and message of an event. An event that is not itself a message has its own overloads.
 template <class Event>
@@ -48,26 +55,34 @@ const Event& eventFromMsg(const Event& message) {
 
 /// Accepted inputs of a node wait here for their tick. Live inputs become events that get the stamp
 /// of the tick at which they are applied; a replay applies recorded events at their own ticks. The
-/// queue is bounded. @tparam EventType has a stamp; zero: the next tick.
+/// queue is bounded, and a client may fill half of what the others leave of it (shareOf()). An
+/// event that is accepted stays, since its sender and the journal count on it.
+/// @tparam EventType has a stamp; zero: the next tick.
 /// @tparam MessageType in which events are published.
 template <class EventType, class MessageType = EventType>
 class EventQueue {
  public:
   using Event = EventType;
   using Message = MessageType;
-  static constexpr std::size_t MOST_WAITING = 10000;
+  static constexpr std::size_t MOST_WAITING = 20000;
   /// Live inputs for later stamps fill this much of the queue at most, so that they cannot close it
   /// to requests for the next tick.
   static constexpr std::size_t MOST_AHEAD = MOST_WAITING / 2;
+  /// The share of a client while no other has inputs that wait.
+  static constexpr std::size_t MOST_OF_CLIENT = MOST_WAITING / 2;
+  static constexpr std::size_t MOST_AHEAD_OF_CLIENT = MOST_AHEAD / 2;
 
-  explicit EventQueue(bool replay) : replay_(replay) {}
+  /// @param client names whose input is added: the node that sends it, which the events of a
+  /// snapshot do not tell. If it is empty, or null, the input is the node's own.
+  explicit EventQueue(bool replay, const std::string* client = nullptr)
+      : replay_(replay), client_(client) {}
 
   /// Calls `observe(event)` for each live input that add() accepts from now on.
   void observe(std::function<void(const Event&)> observe) { observe_ = std::move(observe); }
 
   bool replay() const { return replay_; }
   /// Adds a live input that has been checked. Its stamp says when it takes effect; zero: at the
-  /// next tick. Does nothing in a replay. @return false if the queue is full: the input is lost.
+  /// next tick. Does nothing in a replay. @return false if the share is full: the input is lost.
   bool add(Event event) {
     if (replay_) return true;
     if (room(stampOf(event)) == 0) {
@@ -79,73 +94,101 @@ class EventQueue {
   }
   /// Adds a live input before all that wait, even if the queue is full.
   void addFirst(const Event& event) {
-    if (!replay_) waiting_.push_front(event);
+    if (replay_) return;
+    waiting_.push_front({event, {}});
+    count(waiting_.front());
   }
   /// Adds a recorded event; the oldest is lost if the queue is full. Ignored live, since it is the
   /// node's own.
   void addRecorded(const Event& event) {
     if (!replay_) return;
-    if (room() == 0) {
+    if (waiting_.size() >= MOST_WAITING) {
       waiting_.pop_front();
       ++losses_.lost;
     }
-    waiting_.push_back(event);
+    waiting_.push_back({event, {}});
   }
-  /// Returns how many live inputs still fit: for the next tick (0), or for a later stamp.
+  /// Returns how many live inputs of the client still fit: for the next tick (0), or for a later
+  /// stamp.
   std::size_t room(Nanoseconds stamp = 0) const {
-    const std::size_t all = MOST_WAITING - std::min(MOST_WAITING, waiting_.size());
-    return stamp == 0 ? all : std::min(all, MOST_AHEAD - std::min(MOST_AHEAD, ahead_));
+    const std::size_t all = restOfShare(client(), MOST_WAITING, all_.useOf(client()));
+    if (stamp == 0) return all;
+    return std::min(all, restOfShare(client(), MOST_AHEAD, ahead_.useOf(client())));
   }
 
   static std::string describeFull() {
-    return "too many inputs wait already, allowed are " + std::to_string(MOST_WAITING) + ", and " +
-           std::to_string(MOST_AHEAD) + " for later stamps";
+    return "too many inputs wait already, allowed are " + std::to_string(MOST_OF_CLIENT) +
+           " of a client, " + std::to_string(MOST_AHEAD_OF_CLIENT) +
+           " of them for later stamps, and half of what other clients leave";
   }
 
   /// Returns the events that take effect at the tick `stamp`, in order, stamped with it. Recorded
-  /// events that come after their own tick are among them and counted as late.
+  /// events that come after their own tick are among them and counted as late. Live ones that are
+  /// too far ahead of it are lost: their stamps could not be checked before the first tick.
   std::vector<Event> take(Nanoseconds stamp) {
     std::vector<Event> out;
     out.reserve(waiting_.size());
-    std::deque<Event> later;
-    for (Event& event : waiting_) {
-      const Nanoseconds own = stampOf(event);
+    std::deque<Waiting> later;
+    for (Waiting& one : waiting_) {
+      const Nanoseconds own = stampOf(one.event);
       if (own > stamp) {
-        later.push_back(std::move(event));
+        const bool is_lost = !replay_ && isTooFarAhead(own, stamp);
+        losses_.lost += is_lost;
+        if (!is_lost) later.push_back(std::move(one));
         continue;
       }
       if (replay_ && own < stamp) ++losses_.late;
-      setStamp(event, stamp);
-      out.push_back(std::move(event));
+      setStamp(one.event, stamp);
+      out.push_back(std::move(one.event));
     }
     waiting_ = std::move(later);
-    ahead_ = waiting_.size();
+    countAll();
     return out;
   }
   /// Drops the events for which `is_void(event)` is true.
   template <class Test>
   void forget(Test is_void) {
-    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_void), waiting_.end());
-    ahead_ = static_cast<std::size_t>(std::count_if(
-        waiting_.begin(), waiting_.end(), [](const Event& event) { return stampOf(event) != 0; }));
+    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(),
+                                  [&](const Waiting& one) { return is_void(one.event); }),
+                   waiting_.end());
+    countAll();
   }
   /// Replaces all that waits.
   void restore(const std::vector<Event>& waiting) {
-    waiting_.assign(waiting.begin(), waiting.end());
-    forget([](const Event&) { return false; });  // counts those ahead
+    waiting_.clear();
+    for (const Event& event : waiting) waiting_.push_back({event, {}});
+    countAll();
   }
   /// Calls `visit(event)` for each event that waits.
   template <class Visit>
   void each(Visit visit) const {
-    for (const Event& event : waiting_) visit(event);
+    for (const Waiting& one : waiting_) visit(one.event);
+  }
+  /// Checks that an input of the client may wait. @param what all such inputs hold, of which
+  /// `measure(event)` returns the number in one. @param more the number in the input.
+  /// @throws InvalidInput if they are more than the client's share of `most`.
+  template <class Measure>
+  void checkShare(const std::string& what, std::size_t more, std::size_t most,
+                  Measure measure) const {
+    SharedUse use;
+    for (const Waiting& one : waiting_) {
+      const std::size_t size = measure(one.event);
+      use.all += size;
+      if (one.client == client()) use.own += size;
+    }
+    requireShare(what, use.own, more, shareOf(client(), most, use));
   }
   const QueueLosses& losses() const { return losses_; }
 
  protected:
+  struct Waiting {
+    Event event;
+    std::string client;  ///< that has sent it; empty: the node
+  };
   void push(Event event) {
-    ahead_ += stampOf(event) != 0;
-    waiting_.push_back(std::move(event));
-    report(waiting_.back());
+    waiting_.push_back({std::move(event), client()});
+    count(waiting_.back());
+    report(waiting_.back().event);
   }
   void report(const Event& event) const {
     if (observe_) observe_(event);
@@ -153,10 +196,25 @@ class EventQueue {
 
   bool replay_;
   QueueLosses losses_;
-  std::deque<Event> waiting_;
-  std::size_t ahead_{0};  ///< waiting for a stamp of their own
+  std::deque<Waiting> waiting_;
 
  private:
+  const std::string& client() const {
+    static const std::string NODE;
+    return client_ ? *client_ : NODE;
+  }
+  void count(const Waiting& one) {
+    all_.add(one.client);
+    if (stampOf(one.event) != 0) ahead_.add(one.client);
+  }
+  void countAll() {
+    all_.clear();
+    ahead_.clear();
+    for (const Waiting& one : waiting_) count(one);
+  }
+
+  const std::string* client_;
+  ClientCounts all_, ahead_;  ///< ahead: waiting for a stamp of their own
   std::function<void(const Event&)> observe_;
 };
 

@@ -40,9 +40,11 @@ class NodeBase {
 
   template <class Node, class Message>
   void subscribe(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
-    const boost::function<void(const Message&)> guarded = [this, topic,
-                                                           callback](const Message& message) {
-      acceptInput(topic, [&] { (static_cast<Node*>(this)->*callback)(message); });
+    using Event = ros::MessageEvent<Message const>;
+    const boost::function<void(const Event&)> guarded = [this, topic,
+                                                         callback](const Event& event) {
+      const ClientScope scope(client_, event.getPublisherName());
+      acceptInput(topic, [&] { (static_cast<Node*>(this)->*callback)(*event.getMessage()); });
     };
     subscribers_.push_back(subscribeWithoutDelay<Message>(handle_, topic, queue, guarded));
   }
@@ -80,10 +82,14 @@ class NodeBase {
   /// is advertised by openServices(), or at once after that.
   template <class Node, class Request, class Response>
   void serve(const std::string& name, bool (Node::*callback)(Request&, Response&)) {
-    const boost::function<bool(Request&, Response&)> guarded = guardService(name, callback);
-    closed_.push_back([this, name, guarded] {
-      return private_handle_.advertiseService<Request, Response>(name, guarded);
-    });
+    using Event = ros::ServiceEvent<Request, Response>;
+    const boost::function<bool(Event&)> guarded = [call =
+                                                       guardService(name, callback)](Event& event) {
+      Request request = event.getRequest();
+      return call(event.getCallerName(), request, event.getResponse());
+    };
+    closed_.push_back(
+        [this, name, guarded] { return private_handle_.advertiseService<Event>(name, guarded); });
     if (open_) openServices();
   }
   /// Returns the indices of the shards that answer a request, which it may complete before it is
@@ -104,21 +110,24 @@ class NodeBase {
                    ShardMerge<Response> merge = takeFirst<Response>) {
     serve(shards_ ? "owned/" + name : name, callback);
     if (!shards_) return;
-    const boost::function<bool(Request&, Response&)> handle =
-        [this, name, route, repeat, merge, local = guardService(name, callback)](
-            Request& request, Response& response) {
+    using Event = ros::ServiceEvent<Request, Response>;
+    const boost::function<bool(Event&)> handle =
+        [this, name, route, repeat, merge, call = guardService(name, callback)](Event& event) {
+          Request request = event.getRequest();
           std::optional<Response> merged;
-          answer(response, [&] {
+          answer(event.getResponse(), [&] {
             const std::vector<std::uint32_t> asked = route(request);
+            const auto local = [&, client = event.getCallerName()](Request& own, Response& out) {
+              call(client, own, out);
+            };
             merged = merge(askShards<Request, Response>(name, asked, request, repeat, local));
             return std::string();
           });
-          if (merged) response = *merged;
+          if (merged) event.getResponse() = *merged;
           return true;
         };
-    closed_.push_back([this, name, handle] {
-      return shards_->workers().advertiseService<Request, Response>(name, handle);
-    });
+    closed_.push_back(
+        [this, name, handle] { return shards_->workers().advertiseService<Event>(name, handle); });
     if (open_) openServices();
   }
   /// Sends a request to shards, this one among them. For the threads of ShardRequests.
@@ -130,10 +139,11 @@ class NodeBase {
         name, shards, request, repeat,
         [&](Request& own, Response& response) { local(own, response); });
   }
-  /// Guards a callback against what it throws, and counts refused requests.
+  /// Guards a callback against what it throws, counts refused requests, and tells whose they are.
   template <class Node, class Request, class Response>
   auto guardService(const std::string& name, bool (Node::*callback)(Request&, Response&)) {
-    return [this, name, callback](Request& request, Response& response) {
+    return [this, name, callback](const std::string& client, Request& request, Response& response) {
+      const ClientScope scope(client_, client);
       bool answered = false;
       acceptInput(name,
                   [&] { answered = (static_cast<Node*>(this)->*callback)(request, response); });
@@ -191,9 +201,28 @@ class NodeBase {
     }
   }
 
+  /// Name of the node whose message or request the callback that runs handles: of one that another
+  /// shard has passed on, that shard. Empty in all other callbacks.
+  const std::string& client() const { return client_; }
+
   const std::string name_;
 
  private:
+  /// Tells client() while it exists.
+  class ClientScope {
+   public:
+    ClientScope(std::string& client, const std::string& name)
+        : client_(client), before_(std::exchange(client, name.empty() ? "unknown" : name)) {}
+    ~ClientScope() { client_ = before_; }
+    ClientScope(const ClientScope&) = delete;
+    ClientScope& operator=(const ClientScope&) = delete;
+
+   private:
+    std::string& client_;
+    std::string before_;
+  };
+
+  std::string client_;
   ClosableQueue& callbacks_;
 
  protected:

@@ -31,7 +31,7 @@ class SavedNode : public NodeBase {
             const ros::NodeHandle& private_handle, Options options, TickCalls calls)
       : NodeBase(name, handle, private_handle),
         options_(std::move(options)),
-        inputs_(options_.replay),
+        inputs_(options_.replay, &client()),
         clock_(name_, options_.state_rate, options_.replay ? options_.replay_delay : 0.0,
                std::move(calls)),
         events_publisher_(options_.replay ? ros::Publisher()

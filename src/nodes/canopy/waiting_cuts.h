@@ -10,8 +10,9 @@
 
 namespace vegetation_sim {
 
-/// Largest number of plants in all cuts that wait for their tick together: 4 MB.
-constexpr std::size_t MOST_WAITING_PLANTS = 1'000'000;
+/// Largest number of plants in all cuts that wait for their tick together: 8 MB. A client may have
+/// half of what others leave.
+constexpr std::size_t MOST_WAITING_PLANTS = 2'000'000;
 
 /// Checks that a cut of so many plants may wait. @throws InvalidInput
 void checkRoomToWait(const EventQueue<CanopyEvent>& inputs, std::size_t plants);

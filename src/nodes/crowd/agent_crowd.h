@@ -156,6 +156,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   crowd::Crowd crowd_;
   std::optional<crowd::CrowdShard> shard_;
   std::unique_ptr<BorderInbox> inbox_;  // null without other shards
+  std::uint64_t reported_dropped_{0};   // borders, on /diagnostics
   HashedCache<CrowdBorder> borders_;
   std::unique_ptr<PartJoin> parts_;       // null unless this node joins them
   std::vector<std::uint32_t> heard_now_;  // shards whose borders have come since the tick before

@@ -85,8 +85,10 @@ void AgentCrowd::enqueueEach(CrowdEvent event, const std::vector<std::uint32_t>&
 }
 
 void AgentCrowd::checkNumber(const std::vector<std::uint32_t>& ids, Faults& faults) {
-  if (ids.empty() || ids.size() > EventQueue<CrowdEvent>::MOST_WAITING)
-    faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to 10000");
+  constexpr std::size_t MOST = EventQueue<CrowdEvent>::MOST_OF_CLIENT;
+  if (ids.empty() || ids.size() > MOST)
+    faults.add("ids has " + std::to_string(ids.size()) + " entries, allowed are 1 to " +
+               std::to_string(MOST));
 }
 
 void AgentCrowd::addUnknown(std::uint32_t id, Faults& faults) {

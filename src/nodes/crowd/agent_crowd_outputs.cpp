@@ -195,6 +195,9 @@ void AgentCrowd::sendFrames() {
 
 void AgentCrowd::addDiagnostics(Status& status) {
   robots_.missing().warn(name_, status);
+  const std::uint64_t dropped = inbox_ ? inbox_->dropped() : 0;
+  warnOfMore(status, dropped, reported_dropped_, "borders of shards dropped, too large");
+  reported_dropped_ = dropped;
   std::size_t arrived = 0;
   for (const crowd::Walker& walker : crowd_.walkers()) arrived += walker.arrived;
   status.add("Walkers", crowd_.walkers().size());

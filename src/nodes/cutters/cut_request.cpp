@@ -30,15 +30,6 @@ bool switchCutters(const std_srvs::SetBool::Request& request, bool replay, Cutte
   return !replay;
 }
 
-void checkRoomToWait(const std::string& what, std::size_t waiting, std::size_t more,
-                     std::size_t most) {
-  if (waiting + more > most)
-    throw InvalidInput(what + " = " + std::to_string(waiting + more) + " with the " +
-                           std::to_string(more) + " of this request, allowed are 0 to " +
-                           std::to_string(most),
-                       FaultCode::NO_ROOM);
-}
-
 void checkSwept(const grass::CutArea& area) {
   Faults faults;
   check(area, "cutter: ", faults);

@@ -5,9 +5,6 @@
 #include <std_srvs/SetBool.h>
 #include <vegetation_sim/GrassCut.h>
 
-#include <cstddef>
-#include <string>
-
 #include "nodes/cutters/cutter_follower.h"
 #include "vegetation_sim/core/math/vectors.h"
 #include "vegetation_sim/grass/tread/cut_map.h"
@@ -22,12 +19,6 @@ grass::CutArea areaOf(const GrassCut& cut, const Pose& to_world);
 /// recorded. @return whether they were switched.
 bool switchCutters(const std_srvs::SetBool::Request& request, bool replay, CutterFollower& cutters,
                    std_srvs::SetBool::Response& response);
-
-/// Checks that a request to cut may wait for its tick. @param what all such requests hold. @param
-/// waiting the number of it in those that wait. @param more the number in the request.
-/// @throws InvalidInput if they are more than `most` together.
-void checkRoomToWait(const std::string& what, std::size_t waiting, std::size_t more,
-                     std::size_t most);
 
 /// Checks the area that a tool has swept. @throws InvalidInput
 void checkSwept(const grass::CutArea& area);

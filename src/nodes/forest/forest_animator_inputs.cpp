@@ -86,7 +86,7 @@ void ForestAnimator::onSensor(const SensorInterest& message) {
   acceptInput("sensor", [&] {
     ForestInput event;
     event.kind = ForestInput::SENSOR;
-    event.stamp = fromMsg(message.header.stamp);
+    event.stamp = fromMsg(effectOf(message.header.stamp, clock_));
     event.sensor = fromMsg(message);
     const std::string& frame = message.header.frame_id;
     if (!frame.empty() && frame != options_.frame_id)

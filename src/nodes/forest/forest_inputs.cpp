@@ -132,9 +132,9 @@ ForestTuning tuningOf(const ForestInput& input) {
 
 bool ForestInputs::add(const ForestInput& input) {
   if (replay_) return true;
-  for (ForestInput& waiting : waiting_)
-    if (replaces(input, waiting)) {
-      waiting = input;
+  for (Waiting& waiting : waiting_)
+    if (replaces(input, waiting.event)) {
+      waiting.event = input;
       report(input);
       return true;
     }
@@ -148,8 +148,8 @@ bool ForestInputs::add(const ForestInput& input) {
 }
 
 const forest::Grab* ForestInputs::waitingGrab(std::uint32_t id) const {
-  for (const ForestInput& input : waiting_)
-    if (input.kind == ForestInput::GRAB && input.grab.id == id) return &input.grab;
+  for (const Waiting& one : waiting_)
+    if (one.event.kind == ForestInput::GRAB && one.event.grab.id == id) return &one.event.grab;
   return nullptr;
 }
 

@@ -87,7 +87,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay) {
-    subscribe("tread", 2 * EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
+    subscribe("tread", EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
     subscribe("treads", 1000, &GrassField::onTreads);
   }
   subscribe("forest/sensors", 40, &GrassField::onSensor);

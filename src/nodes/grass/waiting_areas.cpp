@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/grass/waiting_areas.h"
 
-#include "nodes/cutters/cut_request.h"
-
 namespace vegetation_sim {
 namespace {
 
@@ -14,9 +12,8 @@ std::size_t pointsOf(const GrassCut& cut) {
 }  // namespace
 
 void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut) {
-  std::size_t waiting = 0;
-  inputs.each([&](const GrassEvent& event) { waiting += pointsOf(event.cut); });
-  checkRoomToWait("points of cuts that wait", waiting, pointsOf(cut), MOST_WAITING_POINTS);
+  inputs.checkShare("points of cuts that wait", pointsOf(cut), MOST_WAITING_POINTS,
+                    [](const GrassEvent& event) { return pointsOf(event.cut); });
 }
 
 }  // namespace vegetation_sim

@@ -11,8 +11,8 @@
 namespace vegetation_sim {
 
 /// Largest number of points in the outlines of all areas to cut that wait for their tick together,
-/// those of swaths included: 24 MB.
-constexpr std::size_t MOST_WAITING_POINTS = 1'000'000;
+/// those of swaths included: 48 MB. A client may have half of what others leave.
+constexpr std::size_t MOST_WAITING_POINTS = 2'000'000;
 
 /// Checks that a cut of this area may wait. @throws InvalidInput
 void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut);

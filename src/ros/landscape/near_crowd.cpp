@@ -16,6 +16,7 @@ void NearCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
 
 bool NearCrowd::accepts(const NearAgents& message) {
   return receive("agents/near", status_, [&] {
+    requireSoon(message.header.stamp);
     requireFrame(message.header.frame_id);
     peopleOf(message.agents);
     fromMsg(message.discs);

@@ -47,6 +47,7 @@ void SubscribedCanopy::setLayout(const CanopyLayout& message) {
 
 bool SubscribedCanopy::accepts(const CanopyState& message) {
   return receive("canopy/state", state_status_, [&] {
+    requireSoon(message.header.stamp);
     fromMsg(message);
     return state_status_;
   });

@@ -55,6 +55,7 @@ void SubscribedCrowd::selectTopic() {
 
 bool SubscribedCrowd::accepts(const AgentStates& message) {
   return receive("agents", status_, [&] {
+    requireSoon(message.header.stamp);
     requireFrame(message.header.frame_id);
     check(message.agents);
     return status_;

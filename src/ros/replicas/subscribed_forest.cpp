@@ -41,6 +41,7 @@ InputStatus SubscribedForest::describeLayout() const {
 
 bool SubscribedForest::accepts(const ForestState& message) {
   return receive("forest/state", state_status_, [&] {
+    requireSoon(message.header.stamp);
     fromMsg(message);
     return state_status_;
   });

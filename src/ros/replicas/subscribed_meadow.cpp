@@ -34,7 +34,8 @@ void SubscribedMeadow::subscribe(ros::NodeHandle handle, const Topics& topics) {
           if (!options_.delayed)
             apply(*message);
           else if (accepts(*message))
-            delayed_near_.add(fromMsg(message->state.header.stamp), message);
+            delayed_near_.add(fromMsg(message->state.header.stamp),
+                              ros::serialization::serializationLength(*message), message);
         };
     near_subscriber_ = subscribeWithoutDelay<NearGrass>(handle, topics.near, 100, callback);
   }
@@ -109,6 +110,7 @@ void SubscribedMeadow::setColours(const GrassColours& message) {
 
 bool SubscribedMeadow::accepts(const GrassState& message) {
   return receive("grass/state", state_status_, [&] {
+    requireSoon(message.header.stamp);
     fromMsg(message);
     return state_status_;
   });

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <ros/serialization.h>
 #include <ros/subscriber.h>
+#include <ros/time.h>
 
 #include <functional>
 #include <string>
@@ -14,6 +16,7 @@
 #include "ros/replicas/input_status.h"
 #include "ros/services/requests.h"
 #include "ros/services/rivals.h"
+#include "ros/services/stamp_limits.h"
 #include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -78,13 +81,19 @@ class SubscribedReplica {
   void requireFrame(const std::string& frame) const {
     if (!options_.frame_id.empty()) checkFrame(frame, options_.frame_id);
   }
+  /// @throws InvalidInput for a stamp of a message that is too far ahead of the clock to wait for
+  /// it. Before there is a time, any may wait.
+  static void requireSoon(const ros::Time& stamp) {
+    if (ros::Time::isValid()) requireNear(fromMsg(stamp), fromMsg(ros::Time::now()));
+  }
   void subscribeState(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue) {
     const boost::function<void(const boost::shared_ptr<const State>&)> callback =
         [this](const boost::shared_ptr<const State>& message) {
           if (!options_.delayed)
             apply(*message);
           else if (accepts(*message))
-            delayed_.add(fromMsg(message->header.stamp), message);
+            delayed_.add(fromMsg(message->header.stamp),
+                         ros::serialization::serializationLength(*message), message);
         };
     subscribers_.push_back(subscribeWithoutDelay<State>(handle, topic, queue, callback));
   }

@@ -13,6 +13,7 @@ void SubscribedWind::subscribe(ros::NodeHandle handle, const std::string& topic)
 
 bool SubscribedWind::accepts(const WindField& message) {
   return receive("wind", status_, [&] {
+    requireSoon(message.header.stamp);
     requireFrame(message.header.frame_id);
     fromMsg(message);
     return status_;

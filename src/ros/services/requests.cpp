@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "ros/services/stamp_limits.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -15,7 +16,6 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr double FARTHEST_AHEAD = 60.0;  // [s]
 constexpr std::size_t MOST_NAMES = 8;
 
 std::string describeFrames(const tf2_ros::Buffer& buffer) {
@@ -59,11 +59,8 @@ void checkFrame(const std::string& frame, const std::string& world) {
 
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {
   if (stamp.isZero() || !clock.hasBegun()) return stamp;
-  const double ahead = secondsBetween(clock.stamp(), fromMsg(stamp));
-  if (ahead > FARTHEST_AHEAD)
-    throw InvalidInput("stamp is " + std::to_string(ahead) + " s ahead, allowed are " +
-                       std::to_string(FARTHEST_AHEAD) + " s");
-  return ahead > 0.0 ? stamp : ros::Time();
+  requireNear(fromMsg(stamp), clock.stamp());
+  return fromMsg(stamp) > clock.stamp() ? stamp : ros::Time();
 }
 
 std::string describeEffect(const ros::Time& effect) {

@@ -26,8 +26,9 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
 /// @throws InvalidInput that names both if a message is not in the world frame.
 void checkFrame(const std::string& frame, const std::string& world);
 
-/// Returns when a request takes effect: its stamp if that is in the future, else zero for the next
-/// tick. @throws InvalidInput for a stamp more than a minute ahead.
+/// Returns when an input takes effect: its stamp if that is in the future, else zero for the next
+/// tick. @throws InvalidInput for a stamp more than FARTHEST_AHEAD ahead. Before the clock has
+/// begun, any stamp is returned; the queue of inputs drops what is too far ahead of the first tick.
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock);
 /// Says when a request takes effect, for its answer.
 std::string describeEffect(const ros::Time& effect);

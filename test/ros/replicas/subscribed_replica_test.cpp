@@ -8,6 +8,10 @@
 #include <new>
 #include <stdexcept>
 
+#include "ros/landscape/near_crowd.h"
+#include "ros/replicas/subscribed_forest.h"
+#include "ros/replicas/subscribed_meadow.h"
+
 namespace vegetation_sim {
 namespace {
 
@@ -45,6 +49,64 @@ TEST(SubscribedReplica, AnyExceptionRejectsItsMessageOnly) {
   EXPECT_TRUE(replica.status.good);
   ASSERT_EQ(rejected.size(), 2u);
   EXPECT_EQ(rejected[0], "forest/state: branch = 7");
+}
+
+/// A time in all of the process, as the clock of a simulation sets it.
+class TimedReplica : public testing::Test {
+ protected:
+  static constexpr std::int32_t NOW = 1000;  // [s]
+  void SetUp() override {
+    ros::Time::init();
+    ros::Time::setNow(ros::Time(NOW));
+  }
+  void TearDown() override { ros::Time::init(); }
+
+  ReplicaOptions options() {
+    ReplicaOptions out;
+    out.delayed = true;
+    out.on_rejected = [this](const std::string&, const std::string& why) { why_ = why; };
+    return out;
+  }
+  template <class Replica, class Message>
+  void expectFarRefused(Replica&& replica, const Message& message) {
+    const auto why_not = [&](double stamp) {
+      Message stamped = message;
+      headerOf(stamped).stamp = ros::Time(stamp);
+      why_.clear();
+      replica.accepts(stamped);
+      return why_;
+    };
+    EXPECT_EQ(why_not(NOW + 61.0), "stamp = 1061.000 s is 61.000 s ahead, allowed are 60 s");
+    EXPECT_EQ(why_not(NOW + 3e8).find("stamp = 300001000.000 s is "), 0u);
+    EXPECT_EQ(why_not(NOW + 59.0).find("stamp = "), std::string::npos);
+  }
+
+ private:
+  template <class Message>
+  static std_msgs::Header& headerOf(Message& message) {
+    return message.header;
+  }
+  static std_msgs::Header& headerOf(NearGrass& message) { return message.state.header; }
+
+  std::string why_;
+};
+
+// States of any size that never become due would fill the memory.
+TEST_F(TimedReplica, RefusesStatesThatAreTooFarAheadToWait) {
+  expectFarRefused(SubscribedForest(options()), ForestState());
+  expectFarRefused(SubscribedMeadow(options()), GrassState());
+  expectFarRefused(SubscribedMeadow(options()), NearGrass());
+  expectFarRefused(SubscribedCrowd(options()), AgentStates());
+  expectFarRefused(NearCrowd(options()), NearAgents());
+  expectFarRefused(SubscribedWind(options()), WindField());
+}
+
+// The clock may start after the states come.
+TEST_F(TimedReplica, AcceptsAnyStampBeforeThereIsATime) {
+  ros::Time::setNow(ros::Time());
+  AgentStates state;
+  state.header.stamp = ros::Time(3e8);
+  EXPECT_TRUE(SubscribedCrowd(options()).accepts(state));
 }
 
 }  // namespace

@@ -34,6 +34,8 @@ class BorderInbox {
   void jumpBack() { borders_.jumpBack(); }
   /// Number of borders that have not come in time.
   std::size_t late() const { return late_; }
+  /// Number of borders that were dropped because too large ones wait.
+  std::uint64_t dropped() const { return borders_.dropped(); }
 
  private:
   double wait_;

@@ -17,6 +17,12 @@ Nanoseconds stampOf(const CrowdBorder& border) {
   return fromMsg(border.header.stamp);
 }
 
+std::size_t bytesOf(const std::vector<CrowdBorder>& borders) {
+  std::size_t out = 0;
+  for (const CrowdBorder& one : borders) out += one.border.size();
+  return out;
+}
+
 // The border of a message, and before it that after the tick before, if it has a later stamp than
 // `last`.
 std::vector<CrowdBorder> split(const CrowdBorder& message, std::optional<Nanoseconds> last) {
@@ -44,7 +50,8 @@ void append(std::vector<CrowdBorder> borders, std::vector<CrowdBorder>& all) {
 
 }  // namespace
 
-WaitingBorders::WaitingBorders(const Shard& shard) : shard_(shard) {
+WaitingBorders::WaitingBorders(const Shard& shard, std::size_t most_bytes)
+    : shard_(shard), most_bytes_(most_bytes) {
   for (std::uint32_t i = 0; i < shard_.count; ++i)
     if (i != shard_.index) expected_.insert(i);
 }
@@ -59,18 +66,43 @@ void WaitingBorders::add(const CrowdBorder& message) {
   if (shard == shard_.index || shard >= shard_.count || message.shards != shard_.count) return;
   const Nanoseconds stamp = stampOf(message);
   if (now_ != 0 && stamp > now_ + fromSeconds(MOST_AHEAD)) return;
+  if (message.border.size() + message.previous_border.size() > most_bytes_) {
+    ++dropped_;
+    return;
+  }
   Sent& sent = sent_[shard];
   std::vector<CrowdBorder> borders = split(message, sent.newest);
   if (sent.has_to_jump && stampOf(borders.front()) >= now_) return;
   sent.has_to_jump = false;
   if (sent.newest && stamp < *sent.newest && stamp < before_) {
     append(split(message, {}), sent.after_jump);
+    while (dropOneTooMany()) {
+    }
     return;
   }
   sent.after_jump.clear();
   sent.newest = stamp;
   append(std::move(borders), sent.waiting);
   expected_.insert(shard);
+  while (dropOneTooMany()) {
+  }
+}
+
+// Drops the oldest border of the shard with most bytes, so that none takes the room of the others.
+bool WaitingBorders::dropOneTooMany() {
+  std::size_t all = 0, most = 0;
+  std::vector<CrowdBorder>* largest = nullptr;
+  for (auto& entry : sent_)
+    for (auto* borders : {&entry.second.waiting, &entry.second.after_jump}) {
+      const std::size_t bytes = bytesOf(*borders);
+      all += bytes;
+      if (bytes > most) largest = borders;
+      most = std::max(most, bytes);
+    }
+  if (all <= most_bytes_ || !largest) return false;
+  largest->erase(largest->begin());
+  ++dropped_;
+  return true;
 }
 
 bool WaitingBorders::hasCome(std::uint32_t shard) const {

@@ -5,6 +5,7 @@
 #include <vegetation_sim/CrowdBorder.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,16 +22,18 @@ namespace vegetation_sim {
 class WaitingBorders {
  public:
   static constexpr double MOST_AHEAD = 10.0;  ///< of a border, after the tick that waits [s]
+  static constexpr std::size_t MOST_BYTES = 256'000'000;  ///< of all borders that wait
 
   /// Expects each of the other shards.
-  explicit WaitingBorders(const Shard& shard);
+  explicit WaitingBorders(const Shard& shard, std::size_t most_bytes = MOST_BYTES);
 
   /// Begins to wait for the tick `now`. @param before stamp of the tick before; 0: there was none.
   void beginTick(Nanoseconds before, Nanoseconds now);
   /// Keeps the borders of a message that are newer than those which its shard has sent. Those of
   /// this shard, of unknown shards, of another number of shards, and stamped more than
   /// MOST_AHEAD after the tick are ignored. An older one replaces those that are not older: if
-  /// it is earlier than the tick before, at the next jump of the clock.
+  /// it is earlier than the tick before, at the next jump of the clock. A message of more
+  /// than `most_bytes` is dropped; of more in all, the oldest border of the shard with most bytes.
   void add(const CrowdBorder& message);
   /// Whether each expected shard has sent the border after the tick before, or a later one.
   bool hasAll() const;
@@ -44,6 +47,8 @@ class WaitingBorders {
   std::vector<CrowdBorder> take();
   /// Expects the borders from after a jump back of the clock instead.
   void jumpBack();
+  /// Number of borders and messages that were dropped for their size.
+  std::uint64_t dropped() const { return dropped_; }
 
  private:
   /// Borders that a shard has sent.
@@ -54,11 +59,14 @@ class WaitingBorders {
     bool has_to_jump{false};              // newer ones are from before the jump
   };
   bool hasCome(std::uint32_t shard) const;
+  bool dropOneTooMany();
 
   Shard shard_;
+  std::size_t most_bytes_;
   Nanoseconds before_{0}, now_{0};
   std::map<std::uint32_t, Sent> sent_;  // by shard
   std::set<std::uint32_t> expected_;    // shards
+  std::uint64_t dropped_{0};
 };
 
 }  // namespace vegetation_sim

@@ -33,9 +33,9 @@ TEST(WaitingCuts, AreBoundedInTheNumberOfTheirPlants) {
     FAIL() << "one plant more may wait";
   } catch (const InvalidInput& error) {
     EXPECT_EQ(error.code(), FaultCode::NO_ROOM);
-    EXPECT_NE(std::string(error.what()).find("= 1000001 with the "), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("= 2000001 with the "), std::string::npos)
         << error.what();
-    EXPECT_NE(std::string(error.what()).find("allowed are 0 to 1000000"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("allowed are 0 to 2000000"), std::string::npos)
         << error.what();
   }
   inputs.take(5 * NANOSECONDS_PER_SECOND);

@@ -185,6 +185,41 @@ TEST(WaitingBorders, AFloodKeepsTheLast) {
   EXPECT_EQ(ticksOf(takeAt(borders, 151 * TICK)), std::vector<int>{150});
 }
 
+// A border of that many bytes, which message has no border of the tick before.
+CrowdBorder largeBorder(std::uint8_t tick, std::uint32_t shard, std::size_t bytes) {
+  CrowdBorder out = borderAfter(tick, shard, 3);
+  out.border.assign(bytes, tick);
+  out.previous_border.clear();
+  return out;
+}
+
+// The shard with most bytes loses its oldest borders, and the others lose none.
+TEST(WaitingBorders, LargeOnesAreDroppedAndCounted) {
+  WaitingBorders borders({0, 3}, 1000);
+  borders.beginTick(TICK, 2 * TICK);
+  borders.add(largeBorder(1, 1, 300));
+  for (const int tick : {1, 2, 3, 4}) borders.add(largeBorder(std::uint8_t(tick), 2, 200));
+  EXPECT_EQ(borders.dropped(), 1u);
+  EXPECT_EQ(ticksOf(takeAt(borders, 2 * TICK)), std::vector<int>{1});  // of shard 1
+  EXPECT_EQ(ticksOf(takeAt(borders, 5 * TICK)), std::vector<int>{4});  // of shard 2
+  borders.beginTick(5 * TICK, 6 * TICK);
+  borders.add(largeBorder(5, 1, 1001));
+  EXPECT_EQ(borders.dropped(), 2u);
+  EXPECT_TRUE(takeAt(borders, 9 * TICK).empty());
+}
+
+// Nor are those without limit that come before this node sees a jump of the clock.
+TEST(WaitingBorders, LargeOnesFromAfterAJumpAreDroppedToo) {
+  WaitingBorders borders({0, 3}, 1000);
+  borders.beginTick(99 * TICK, 100 * TICK);
+  borders.add(largeBorder(99, 1, 10));
+  for (const int tick : {1, 2, 3, 4}) borders.add(largeBorder(std::uint8_t(tick), 1, 300));
+  EXPECT_EQ(borders.dropped(), 1u);
+  borders.jumpBack();
+  EXPECT_TRUE(takeAt(borders, 2 * TICK).empty());
+  EXPECT_EQ(ticksOf(takeAt(borders, 5 * TICK)), std::vector<int>{4});
+}
+
 }  // namespace
 }  // namespace vegetation_sim
 

@@ -17,13 +17,15 @@ from tf2_msgs.msg import TFMessage
 from vegetation_sim.msg import ForestEvent, WindField
 from vegetation_sim.srv import FindTrees
 
-from forest_rig import RATE, Animator, SensorClient, TickClock, ViewerClient
+from forest_rig import RATE, Animator, SensorClient, TickClock, ViewerClient, time_of
 from waiting import wait_for
 from watched_node import Log, publisher
 
 NAN, INF = float('nan'), float('inf')
 TREES = 17
 MOST_SENSORS = 32
+MOST_AHEAD = 5000  # inputs of one client that may wait for later stamps
+FAR = rospy.Time(4102444800)  # in the year 2100
 DOWN = dict(direction=Vector3(0.0, 0.0, -1.0), tolerance=0.1)
 
 
@@ -222,6 +224,21 @@ class ForestRequests(unittest.TestCase):
         self.assertNotEqual(self.forest.level(0), level)
         # The sensor changes what is perceived, not the world.
         self.assertEqual(self.forest.state.messages[-1].hash, self.hash)
+
+    # Sensors that never become due must not fill the queue.
+    def test_sensors_of_a_far_stamp_are_refused(self):
+        message = copy.deepcopy(self.sensor.message)
+        message.header.stamp = FAR
+        for i in range(MOST_AHEAD):
+            message.id = 'far %d' % i
+            self.sensor.send(message, *([self.forest] if i % 50 == 49 else []))
+        self.expect_refusal('forest/sensors', 'stamp = %d.000 s is ' % FAR.secs, 'ahead, allowed are 60 s')
+        message.id, message.header.stamp = 'near', time_of(self.clock.tick + 6)
+        self.sensor.send(message, self.forest)
+        self.clock.run(6, self.forest)
+        events = self.forest.events.messages[self.events:]
+        self.assertEqual([(e.header.stamp, e.kind, e.sensor.id) for e in events],
+                         [(message.header.stamp, ForestEvent.SENSOR, 'near')])
 
     def test_a_bad_wind_is_refused(self):
         log = Log('/wind', WindField)
