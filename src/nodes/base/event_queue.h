@@ -65,6 +65,12 @@ class EventQueue {
   /// Calls `observe(event)` for each live input that add() accepts from now on.
   void observe(std::function<void(const Event&)> observe) { observe_ = std::move(observe); }
 
+  /// Sets what an event costs when it is applied: a whole number in a unit of the node, found
+  /// without exceptions.
+  void setCost(std::function<double(const Event&)> cost) { cost_of_ = std::move(cost); }
+  /// Sum of the costs of the live inputs that wait.
+  double cost() const { return cost_; }
+
   bool replay() const { return replay_; }
   /// Adds a live input that has been checked. Its stamp says when it takes effect; zero: at the
   /// next tick. Does nothing in a replay. @return false if the queue is full: the input is lost.
@@ -79,7 +85,9 @@ class EventQueue {
   }
   /// Adds a live input before all that wait, even if the queue is full.
   void addFirst(const Event& event) {
-    if (!replay_) waiting_.push_front(event);
+    if (replay_) return;
+    cost_ += costOf(event);
+    waiting_.push_front(event);
   }
   /// Adds a recorded event; the oldest is lost if the queue is full. Ignored live, since it is the
   /// node's own.
@@ -115,6 +123,7 @@ class EventQueue {
         continue;
       }
       if (replay_ && own < stamp) ++losses_.late;
+      if (!replay_) cost_ -= costOf(event);
       setStamp(event, stamp);
       out.push_back(std::move(event));
     }
@@ -128,11 +137,12 @@ class EventQueue {
     waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), is_void), waiting_.end());
     ahead_ = static_cast<std::size_t>(std::count_if(
         waiting_.begin(), waiting_.end(), [](const Event& event) { return stampOf(event) != 0; }));
+    addUp();
   }
   /// Replaces all that waits.
   void restore(const std::vector<Event>& waiting) {
     waiting_.assign(waiting.begin(), waiting.end());
-    forget([](const Event&) { return false; });  // counts those ahead
+    forget([](const Event&) { return false; });  // counts those ahead, and the costs
   }
   /// Calls `visit(event)` for each event that waits.
   template <class Visit>
@@ -144,6 +154,7 @@ class EventQueue {
  protected:
   void push(Event event) {
     ahead_ += stampOf(event) != 0;
+    cost_ += costOf(event);
     waiting_.push_back(std::move(event));
     report(waiting_.back());
   }
@@ -157,7 +168,16 @@ class EventQueue {
   std::size_t ahead_{0};  ///< waiting for a stamp of their own
 
  private:
+  double costOf(const Event& event) const { return cost_of_ ? cost_of_(event) : 0.0; }
+  void addUp() {
+    cost_ = 0.0;
+    if (cost_of_ && !replay_)
+      for (const Event& event : waiting_) cost_ += cost_of_(event);
+  }
+
   std::function<void(const Event&)> observe_;
+  std::function<double(const Event&)> cost_of_;
+  double cost_{0.0};
 };
 
 }  // namespace vegetation_sim

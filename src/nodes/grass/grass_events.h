@@ -14,4 +14,8 @@ namespace vegetation_sim {
 std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
                          grass::TreadSimulation& simulation);
 
+/// Returns at most how many nodes the tread or cut of an event presses, in the time of which it is
+/// applied. An event that is no valid one has no work: it is refused.
+double workOf(const GrassEvent& event, const grass::TreadSimulation& simulation);
+
 }  // namespace vegetation_sim

@@ -54,6 +54,7 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
+  inputs_.setCost([this](const GrassEvent& event) { return workOf(event, *field_); });
   if (isPart() && showsAll()) {
     whole_ = std::make_unique<WholeMeadow>(layout, scene.terrain, scene.grass.treading);
     whole_->field().setDrag(tuning_.drag);

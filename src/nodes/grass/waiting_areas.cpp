@@ -13,10 +13,16 @@ std::size_t pointsOf(const GrassCut& cut) {
 
 }  // namespace
 
-void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut) {
+void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut, double work) {
   std::size_t waiting = 0;
   inputs.each([&](const GrassEvent& event) { waiting += pointsOf(event.cut); });
   checkRoomToWait("points of cuts that wait", waiting, pointsOf(cut), MOST_WAITING_POINTS);
+  checkWorkToWait(inputs, work);
+}
+
+void checkWorkToWait(const EventQueue<GrassEvent>& inputs, double work) {
+  checkRoomToWait("nodes of treads and cuts that wait", static_cast<std::size_t>(inputs.cost()),
+                  static_cast<std::size_t>(work), static_cast<std::size_t>(MOST_WAITING_WORK));
 }
 
 }  // namespace vegetation_sim

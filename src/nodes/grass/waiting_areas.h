@@ -14,7 +14,13 @@ namespace vegetation_sim {
 /// those of swaths included: 24 MB.
 constexpr std::size_t MOST_WAITING_POINTS = 1'000'000;
 
-/// Checks that a cut of this area may wait. @throws InvalidInput
-void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut);
+/// Largest work of all treads and cuts that wait for their tick together, in nodes to press: one
+/// tick takes about a second for them.
+constexpr double MOST_WAITING_WORK = 1e8;
+
+/// Checks that a cut of this area and work may wait. @throws InvalidInput
+void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut, double work);
+/// Checks that what has this work may wait. @throws InvalidInput
+void checkWorkToWait(const EventQueue<GrassEvent>& inputs, double work);
 
 }  // namespace vegetation_sim
