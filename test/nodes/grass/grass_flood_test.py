@@ -104,6 +104,7 @@ class GrassFlood(unittest.TestCase):
     # One message has more strokes than a tick has time for: their work is bounded in nodes, and
     # those that are refused are counted.
     def test_5_the_work_of_many_strokes_is_bounded(self):
+        self.clock.run(1, self.grass)  # nothing waits
         before = self.grass.diagnostics()
         names = ['wide_%05d' % i for i in range(MOST_WAITING)]
         treads = publisher('/treads', TreadEvents)

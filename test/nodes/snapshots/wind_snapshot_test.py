@@ -102,10 +102,10 @@ class WindSnapshot(SnapshotCase):
         wait_for(blows, 'the source of the drone')
 
     def shown_speed(self, node):
-        """Kills a node, and returns the speed of the breeze that the next process shows."""
+        """Kills a node, and returns the speed of the breeze that a change of nothing keeps."""
         self.restart(node)
         shown = Client(node.name)
-        speed = shown.get_configuration()['breeze_speed']
+        speed = shown.update_configuration({})['breeze_speed']
         shown.close()
         return speed
 
@@ -120,6 +120,7 @@ class WindSnapshot(SnapshotCase):
         answer = node.client.set(primitive=breeze)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(self.shown_speed(node), 7.0)
+        self.clock.run(3 * RATE, node.client)  # the earlier ones have ended
         self.assertTrue(node.client.remove(name='breeze').success)
         self.assertEqual(self.shown_speed(node), 0.0)
         self.assertTrue(rospy.ServiceProxy(node.name + '/reset', Trigger)().success)
