@@ -7,16 +7,27 @@ import time
 
 import rospy
 from vegetation_sim import Scene, VegetationError
+from vegetation_sim.msg import ErrorCode
 from vegetation_sim.srv import (LoadSnapshot, LoadSnapshotResponse, SaveSnapshot,
                                 SaveSnapshotResponse)
+
+
+def refusal(response, error):
+    """Returns a response that names an error."""
+    if not isinstance(error, VegetationError):
+        rospy.logerr('scene_snapshot: %r', error)
+        return response(success=False, message=repr(error), error_code=ErrorCode.INTERNAL)
+    # A node that has not answered has given no code.
+    code = ErrorCode.NOT_AVAILABLE if error.code is None else error.code
+    return response(success=False, message=str(error), error_code=code)
 
 
 def save(scene, request):
     begin = time.monotonic()
     try:
         nodes = scene.save(request.name)['nodes']
-    except VegetationError as error:
-        return SaveSnapshotResponse(success=False, message=str(error))
+    except Exception as error:
+        return refusal(SaveSnapshotResponse, error)
     total = sum(entry['bytes'] for entry in nodes.values())
     return SaveSnapshotResponse(success=True, bytes=total, seconds=time.monotonic() - begin,
                                 message='%d nodes: %s' % (len(nodes), ', '.join(sorted(nodes))))
@@ -26,10 +37,11 @@ def load(scene, request):
     begin = time.monotonic()
     try:
         if request.node or request.check_only:
-            raise VegetationError('node and check_only belong to the service of a single node')
+            raise VegetationError('node and check_only belong to the service of a single node',
+                                  ErrorCode.INVALID_VALUE)
         replies = scene.load(request.name)
-    except VegetationError as error:
-        return LoadSnapshotResponse(success=False, message=str(error))
+    except Exception as error:
+        return refusal(LoadSnapshotResponse, error)
     last = max(replies.values(), key=lambda reply: reply.stamp)
     return LoadSnapshotResponse(success=True, stamp=last.stamp, shift=last.shift,
                                 seconds=time.monotonic() - begin,

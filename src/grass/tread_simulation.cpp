@@ -18,10 +18,6 @@ double flatDistance(const Vec3& a, const Vec3& b) {
   return std::sqrt(x * x + y * y);
 }
 
-std::string wholeNumber(double value) {
-  return std::to_string(static_cast<std::int64_t>(value));
-}
-
 int blockOf(double coordinate, double origin, double spacing) {
   const double node = (coordinate - origin) / spacing;
   return static_cast<int>(
@@ -68,37 +64,6 @@ void TreadSimulation::touch(const Vec3& from, const Vec3& to, double reach) {
   for (int r = std::max(0, row(std::min(from.y(), to.y()) - reach)); r <= last_row; ++r)
     for (int c = std::max(0, column(std::min(from.x(), to.x()) - reach)); c <= last_column; ++c)
       if (tread_.owners().ownsBlock(r, c, tread_.cells())) touched_.insert({r, c});
-}
-
-TreadSimulation::StrokeSteps TreadSimulation::stepsOf(const TreadInput& stroke) const {
-  const MapLaw& law = layout_.map->law();
-  const Vec3 way = stroke.position - stroke.start;
-  const double longest = 0.5 * treading_.longest_stroke, margin = stroke.law.reach + longest;
-  StrokeSteps out;
-  out.count = 1.0 + std::floor(length(way) / longest);
-  const Vec3 low(law.origin_x, law.origin_y, 0.0);
-  const Vec3 size(law.resolution * (law.columns - 1), law.resolution * (law.rows - 1), 0.0);
-  double begin = 0.0, end = 1.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double below = low[axis] - margin - stroke.start[axis];
-    const double above = below + size[axis] + 2.0 * margin;
-    if (way[axis] == 0.0) {
-      if (below > 0.0 || above < 0.0) return out;
-      continue;
-    }
-    const auto [enters, leaves] = std::minmax({below / way[axis], above / way[axis]});
-    begin = std::max(begin, enters), end = std::min(end, leaves);
-  }
-  if (begin > end) return out;
-  out.first = std::floor(begin * out.count);
-  out.last = std::min(out.count, std::ceil(end * out.count));
-  const double side = 2.0 * stroke.law.reach / tread_.spacing() + 3.0;
-  const double nodes = (out.last - out.first + 1.0) * side * side;
-  if (nodes > MOST_STROKE_NODES)
-    throw InvalidInput("stroke of source " + inQuotes(stroke.source) + ": " + wholeNumber(nodes) +
-                       " nodes to press, more than the " + wholeNumber(MOST_STROKE_NODES) +
-                       " allowed");
-  return out;
 }
 
 void TreadSimulation::press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp) {
@@ -169,7 +134,7 @@ std::string TreadSimulation::move(TreadSourceState& source, const TreadInput& in
 std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   const TreadAction action = input.action;
   if (action == TreadAction::LIFT && !sources_.count(input.source)) return "";
-  const StrokeSteps steps = action == TreadAction::STROKE ? stepsOf(input) : StrokeSteps();
+  if (action == TreadAction::STROKE) checkStroke(input);
   TreadSourceState& source = sourceOf(input);
   const Vec3& p = input.position;
   const bool high =
@@ -178,6 +143,7 @@ std::string TreadSimulation::apply(const TreadInput& input, Nanoseconds stamp) {
   if (action != TreadAction::MOVE || high) lift(source);
   if (action == TreadAction::STROKE) {
     source.last = input;
+    const StrokeSteps steps = stepsOf(input);
     const Vec3 from = input.start, way = p - from;
     for (double i = steps.first; i <= steps.last; ++i)
       press(source, from + (i / steps.count) * way, stamp);

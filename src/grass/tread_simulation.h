@@ -81,7 +81,11 @@ class TreadSimulation {
   std::string apply(const TreadInput& input, Nanoseconds stamp);
   /// @throws InvalidInput for a checked stroke that presses more than MOST_STROKE_NODES times a
   /// node.
-  void checkStroke(const TreadInput& input) const { stepsOf(input); }
+  void checkStroke(const TreadInput& stroke) const;
+  /// Returns how many nodes a checked input presses at most, each as often as it is pressed.
+  double workOf(const TreadInput& input) const;
+  /// Returns the work of a checked area, see CutMap::workOf().
+  double workOf(const CutArea& area) const { return tread_.cuts().workOf(area); }
   /// Raises the grass within a disc; @throws InvalidInput for a disc out of
   /// range.
   void raise(const Point& centre, double radius);
@@ -128,6 +132,7 @@ class TreadSimulation {
     double count{1.0}, first{0.0}, last{-1.0};
   };
   StrokeSteps stepsOf(const TreadInput& stroke) const;
+  double nodesOf(double presses, double reach, double step) const;
   TreadSourceState& sourceOf(const TreadInput& input);
   void press(TreadSourceState& source, const Vec3& to, Nanoseconds stamp);
   void enter(TreadSourceState& source, const Vec3& from, const Vec3& to);

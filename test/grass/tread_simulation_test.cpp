@@ -94,6 +94,36 @@ TEST_F(FieldTest, AStrokeOfTooMuchWorkIsRejected) {
   EXPECT_TRUE(field.sources().empty());
 }
 
+// The work of a stroke and of a step is not less than the nodes that they press.
+TEST_F(FieldTest, WorkIsAnUpperBoundOfThePressedNodes) {
+  for (const double reach : {0.2, 1.0, 5.0})
+    for (const double way : {0.0, 0.5, 3.0, 4.9, 12.0}) {
+      TreadInput stroke =
+          input("path", 10.0 + 0.6 * way, 9.0 + 0.8 * way, 0.0, TreadAction::STROKE);
+      stroke.start = Vec3(10.0, 9.0, 0.0);
+      stroke.law.radius = 0.1;
+      stroke.law.reach = reach;
+      const double pieces = 1.0 + std::floor(way / 2.5);
+      TreadMap map = makeMap();
+      double pressed = 0.0;
+      for (double i = 0.0; i <= pieces; ++i) {
+        const Vec3 to = stroke.start + (i / pieces) * (stroke.position - stroke.start);
+        pressed += map.tread(1, stroke.law, {to.x(), to.y()}, now());
+      }
+      EXPECT_LE(pressed, field_.workOf(stroke)) << reach << " " << way;
+      EXPECT_GT(pressed, 0.1 * field_.workOf(stroke)) << reach << " " << way;
+      if (way >= 5.0) continue;
+      TreadMap other = makeMap();
+      stroke.action = TreadAction::PLACE;
+      EXPECT_LE(other.tread(1, stroke.law, {10.0, 9.0}, now()), field_.workOf(stroke)) << reach;
+      stroke.action = TreadAction::MOVE;
+      EXPECT_LE(other.tread(1, stroke.law, {stroke.position.x(), stroke.position.y()}, now()),
+                field_.workOf(stroke))
+          << reach << " " << way;
+    }
+  EXPECT_EQ(field_.workOf(input("a", 0.0, 0.0, 0.0, TreadAction::LIFT)), 0.0);
+}
+
 TEST_F(FieldTest, ADiscOutOfRangeClearsNothing) {
   drive("a", 3.0, 5.0, 1.0, 20);
   const auto blocks = map_.state().blocks.size();

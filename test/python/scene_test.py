@@ -7,6 +7,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import tempfile
 import unittest
 
@@ -15,7 +16,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, PointStamped
 from vegetation_sim import Crowd, Grass, Scene, Simulation, VegetationError
-from vegetation_sim.msg import AgentStates, CanopyState, ForestState, GrassState
+from vegetation_sim.msg import AgentStates, CanopyState, ErrorCode, ForestState, GrassState
 from vegetation_sim.srv import GetTree, Grab, LoadSnapshot, SaveSnapshot
 
 from forest_rig import scene, start_node, stop
@@ -103,27 +104,54 @@ class SceneTest(unittest.TestCase):
         exec(block, {'simulation': self.simulation})
         self.assertEqual(set(self.scene.manifest('before')['nodes']), set(self.scene.nodes()))
 
+    def path_of(self, name, file):
+        return os.path.join(self.folder, name, file)
+
+    def alter(self, name, node, change):
+        """Saves a scene, and changes the bytes of a file with a function."""
+        path = self.path_of(name, self.scene.save(name)['nodes'][node]['file'])
+        with open(path, 'rb') as file:
+            content = file.read()
+        with open(path, 'wb') as file:
+            file.write(change(content))
+
+    def seal(self, name):
+        """Writes the sums of the present files into the manifest."""
+        manifest = self.scene.manifest(name)
+        for entry in manifest['nodes'].values():
+            with open(self.path_of(name, entry['file']), 'rb') as file:
+                entry['sha256'] = hashlib.sha256(file.read()).hexdigest()
+        self.write_manifest(name, json.dumps(manifest))
+
+    def write_manifest(self, name, text):
+        with open(self.path_of(name, 'manifest.json'), 'w') as file:
+            file.write(text)
+
     def test_one_bad_file_loads_nothing(self):
-        manifest = self.scene.save('spoiled')
+        self.alter('spoiled', '/scene/wind_broadcaster', lambda content: content + b'x')
         self.simulation.step(10)
         before = self.hashes('probe')
-        path = os.path.join(self.folder, 'spoiled',
-                            manifest['nodes']['/scene/wind_broadcaster']['file'])
-        with open(path, 'ab') as file:
-            file.write(b'x')
         with self.assertRaisesRegex(VegetationError, 'wind_broadcaster.snapshot: differs'):
             self.scene.load('spoiled')
         # The node finds it too, before the first one changes.
-        listed = os.path.join(self.folder, 'spoiled', 'manifest.json')
-        with open(listed) as file:
-            content = json.load(file)
-        for entry in content['nodes'].values():
-            with open(os.path.join(self.folder, 'spoiled', entry['file']), 'rb') as file:
-                entry['sha256'] = hashlib.sha256(file.read()).hexdigest()
-        with open(listed, 'w') as file:
-            json.dump(content, file)
+        self.seal('spoiled')
         with self.assertRaisesRegex(VegetationError, 'truncated or altered'):
             self.scene.load('spoiled')
+        self.assertEqual(self.hashes('probe'), before)
+
+    # A jump of the clock back would restart all nodes and remove their checkpoints.
+    def test_a_file_of_another_version_leaves_the_clock_alone(self):
+        def as_version_99(content):
+            version = content.index(b'\n') + 1
+            return content[:version] + struct.pack('<I', 99) + content[version + 4:]
+        self.alter('other_version', '/scene/grass_field', as_version_99)
+        self.seal('other_version')
+        self.simulation.step(10)
+        before, tick = self.hashes('probe'), self.simulation.tick
+        with self.assertRaisesRegex(VegetationError, 'version = 99') as raised:
+            self.scene.load('other_version', self.simulation)
+        self.assertEqual(raised.exception.code, ErrorCode.FILE_REJECTED)
+        self.assertEqual(self.simulation.tick, tick)
         self.assertEqual(self.hashes('probe'), before)
 
     def test_another_set_of_nodes_is_named(self):
@@ -150,8 +178,42 @@ class SceneTest(unittest.TestCase):
         self.assertTrue(loaded.success, loaded.message)
         self.assertAlmostEqual(loaded.shift, 1.5)
         self.simulation.step(5)
-        self.assertIn('manifest.json', load(name='missing').message)
-        self.assertIn("name = '..'", save(name='..').message)
+
+    def expect_refusal(self, code, text, service, **request):
+        kind = SaveSnapshot if service == 'save' else LoadSnapshot
+        answer = rospy.ServiceProxy('/scene_snapshot/' + service, kind)(**request)
+        self.assertEqual((answer.success, answer.error_code), (False, code), answer.message)
+        self.assertIn(text, answer.message)
+
+    def test_refusals_of_the_services_have_codes(self):
+        self.expect_refusal(ErrorCode.UNKNOWN, 'missing/manifest.json: there is no such file',
+                            'load', name='missing')
+        self.expect_refusal(ErrorCode.INVALID_VALUE, 'single node', 'load', name='a', node='b')
+        self.scene.save('damaged')
+        for text, what in [('{', 'cannot be read'), ('[]', 'format = None'),
+                           ('{"format": 2}', 'format = 2'), ('{"format": 1}', 'nodes = None'),
+                           ('{"format": 1, "nodes": {}}', 'nodes = {}'),
+                           ('{"format": 1, "nodes": {"/a": {}}}', 'file of /a = None'),
+                           ('{"format": 1, "nodes": {"/a": 3}}', 'file of /a = None')]:
+            self.write_manifest('damaged', text)
+            self.expect_refusal(ErrorCode.FILE_REJECTED, what, 'load', name='damaged')
+        os.makedirs(self.path_of('blocked', 'manifest.json.part'))
+        self.expect_refusal(ErrorCode.FILE_REJECTED, 'cannot be written', 'save', name='blocked')
+        folder = rospy.get_param('/scene/wind_broadcaster/snapshot_folder')
+        rospy.set_param('/scene/wind_broadcaster/snapshot_folder', 5)
+        self.expect_refusal(ErrorCode.INTERNAL, 'TypeError', 'load', name='damaged')
+        rospy.set_param('/scene/wind_broadcaster/snapshot_folder', folder)
+
+    # The text is the same whether there is such a file or not.
+    def test_names_do_not_leave_the_folder(self):
+        outside = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, outside)
+        with open(os.path.join(outside, 'manifest.json'), 'w') as file:
+            file.write('{"format": 99}')
+        for name in ('../' + os.path.basename(outside), '../none', '..', '', 'a/b', 'a' * 65):
+            for service in ('load', 'save'):
+                self.expect_refusal(ErrorCode.INVALID_VALUE, "name = '%s', allowed are" % name[:64],
+                                    service, name=name)
 
 
 if __name__ == '__main__':

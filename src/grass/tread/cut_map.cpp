@@ -115,24 +115,29 @@ CutNode CutMap::nodeOf(int row, int column) const {
   return found == state_.blocks.end() ? CutNode() : found->second.nodes[indexOf(row, column)];
 }
 
+double CutMap::workOf(const std::vector<Point>& outline, double radius) const {
+  if (outline.empty()) return 0.0;
+  const AreaBounds bounds = boundsOf(outline, radius);
+  const auto span = [&](double low, double high, double origin, int last) {
+    const double first = std::max(0.0, (low - origin) / spacing_);
+    return std::max(0.0, std::min(static_cast<double>(last), (high - origin) / spacing_) - first) +
+           1.0;
+  };
+  const double rows = span(bounds.low.y, bounds.high.y, law_.origin_y, last_row_);
+  const double columns = span(bounds.low.x, bounds.high.x, law_.origin_x, last_column_);
+  return rows * (columns + static_cast<double>(outline.size()));
+}
+
+double CutMap::workOf(const CutArea& area) const {
+  return std::floor(workOf(area.outline, area.radius) + workOf(area.swath, 0.0));
+}
+
 void CutMap::checkWork(const CutArea& area) const {
-  for (const auto* outline : {&area.outline, &area.swath}) {
-    if (outline->empty()) continue;
-    const AreaBounds bounds = boundsOf(*outline, outline == &area.outline ? area.radius : 0.0);
-    const auto span = [&](double low, double high, double origin, int last) {
-      const double first = std::max(0.0, (low - origin) / spacing_);
-      return std::max(0.0,
-                      std::min(static_cast<double>(last), (high - origin) / spacing_) - first) +
-             1.0;
-    };
-    const double rows = span(bounds.low.y, bounds.high.y, law_.origin_y, last_row_);
-    const double columns = span(bounds.low.x, bounds.high.x, law_.origin_x, last_column_);
-    const double work = rows * (columns + static_cast<double>(outline->size()));
-    if (work > MOST_WORK)
-      throw InvalidInput("cut: " + std::to_string(static_cast<std::int64_t>(work)) +
-                         " nodes and corners of rows to visit, allowed are " +
-                         std::to_string(static_cast<std::int64_t>(MOST_WORK)));
-  }
+  const double work = std::max(workOf(area.outline, area.radius), workOf(area.swath, 0.0));
+  if (work > MOST_WORK)
+    throw InvalidInput("cut: " + std::to_string(static_cast<std::int64_t>(work)) +
+                       " nodes and corners of rows to visit, allowed are " +
+                       std::to_string(static_cast<std::int64_t>(MOST_WORK)));
 }
 
 // Lists the nodes in an area, row by row. A node at the lower end of a range belongs to it, one at

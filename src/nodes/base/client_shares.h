@@ -27,16 +27,16 @@ inline std::size_t restOfShare(const std::string& client, std::size_t most, cons
   return share - std::min(share, use.own);
 }
 
-/// Counts what waits, by the client that has sent it.
+/// Counts or adds up what waits, by the client that has sent it.
 class ClientCounts {
  public:
   void clear() {
     all_ = 0;
     clients_.clear();
   }
-  void add(const std::string& client) {
-    ++all_;
-    ++clients_[client];
+  void add(const std::string& client, std::size_t amount = 1) {
+    all_ += amount;
+    clients_[client] += amount;
   }
   SharedUse useOf(const std::string& client) const {
     const auto found = clients_.find(client);

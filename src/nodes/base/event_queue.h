@@ -80,6 +80,10 @@ class EventQueue {
   /// Calls `observe(event)` for each live input that add() accepts from now on.
   void observe(std::function<void(const Event&)> observe) { observe_ = std::move(observe); }
 
+  /// Sets what an event costs when it is applied: a number in a unit of the node, found without
+  /// exceptions.
+  void setCost(std::function<std::size_t(const Event&)> cost) { cost_of_ = std::move(cost); }
+
   bool replay() const { return replay_; }
   /// Adds a live input that has been checked. Its stamp says when it takes effect; zero: at the
   /// next tick. Does nothing in a replay. @return false if the share is full: the input is lost.
@@ -178,6 +182,11 @@ class EventQueue {
     }
     requireShare(what, use.own, more, shareOf(client(), most, use));
   }
+  /// Does the same for the costs of all inputs. @param more the cost of the input.
+  void checkCost(const std::string& what, std::size_t more, std::size_t most) const {
+    const SharedUse use = costs_.useOf(client());
+    requireShare(what, use.own, more, shareOf(client(), most, use));
+  }
   const QueueLosses& losses() const { return losses_; }
 
  protected:
@@ -206,16 +215,20 @@ class EventQueue {
   void count(const Waiting& one) {
     all_.add(one.client);
     if (stampOf(one.event) != 0) ahead_.add(one.client);
+    if (cost_of_) costs_.add(one.client, cost_of_(one.event));
   }
   void countAll() {
     all_.clear();
     ahead_.clear();
+    costs_.clear();
     for (const Waiting& one : waiting_) count(one);
   }
 
   const std::string* client_;
   ClientCounts all_, ahead_;  ///< ahead: waiting for a stamp of their own
+  ClientCounts costs_;
   std::function<void(const Event&)> observe_;
+  std::function<std::size_t(const Event&)> cost_of_;
 };
 
 }  // namespace vegetation_sim

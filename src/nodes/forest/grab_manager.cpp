@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "ros/conversions/grab_conversions.h"
 #include "ros/conversions/optional_numbers.h"
@@ -197,6 +198,19 @@ void GrabManager::setByFrame(const Vec3& point, const geometry_msgs::TransformSt
   grab.target = transformed(grab.holder, grab.offset);
 }
 
+// The queue may write a checkpoint, which has the grab only if it is known before.
+void GrabManager::enqueueGrab(const ForestInput& event, const Request& request) {
+  const std::uint32_t before = std::exchange(last_id_, event.grab.id);
+  requests_[last_id_] = request;
+  try {
+    enqueue(event);
+  } catch (...) {
+    requests_.erase(last_id_);
+    last_id_ = before;
+    throw;
+  }
+}
+
 std::string GrabManager::grab(const Grab::Request& request, Grab::Response& response) {
   requireLive();
   ForestInput event = eventAt(ForestInput::GRAB, request.stamp);
@@ -223,9 +237,7 @@ std::string GrabManager::grab(const Grab::Request& request, Grab::Response& resp
   checkTarget(grab, place.point);
   forest::checkGrab(node_.forest.layout(), *grown(grab.point.tree), grab);
   checkRoom("grab", place, request.stamp);
-  enqueue(event);
-  last_id_ = grab.id;
-  requests_[last_id_] = accepted;
+  enqueueGrab(event, accepted);
   if (!grab.frame.empty()) node_.on_change();
   response.id = last_id_;
   response.tree = place.at.tree;

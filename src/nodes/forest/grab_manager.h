@@ -143,6 +143,7 @@ class GrabManager {
   const forest::Grab& grabOf(std::uint32_t id) const;
   ForestInput eventAt(ForestInput::Kind kind, const ros::Time& stamp) const;
   void enqueue(const ForestInput& event);
+  void enqueueGrab(const ForestInput& event, const Request& request);
   void requireLive() const;
   Pose frameOf(const forest::Reaction& reaction) const;
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/grass/grass_events.h"
 
+#include <algorithm>
+
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
@@ -11,6 +13,16 @@ namespace {
 
 constexpr std::size_t MOST_PATH_POINTS = 10000;
 constexpr Range PLACES{-1e7, 1e7};
+constexpr double CUT_WORK = 25.0;  // nodes that are pressed in the time of one that is cut
+constexpr double MOST_WORK = 1e10;
+
+double cutWorkOf(const GrassCut& cut, const grass::TreadSimulation& simulation) {
+  try {
+    return CUT_WORK * simulation.workOf(fromMsg(cut, "cut: "));
+  } catch (const InvalidInput&) {
+    return 0.0;
+  }
+}
 
 }  // namespace
 
@@ -89,6 +101,20 @@ std::vector<Vec3> pathOf(const Tread::Request& request, const grass::MapLaw& law
   }
   faults.throwIfAny();
   return out;
+}
+
+// Reads only what the work of a tread depends on, since each tread is counted. One of a damaged
+// snapshot may have any numbers.
+double workOf(const GrassEvent& event, const grass::TreadSimulation& simulation) {
+  if (event.kind == GrassEvent::CUT) return cutWorkOf(event.cut, simulation);
+  if (event.kind != GrassEvent::TREAD) return 0.0;
+  grass::TreadInput input;
+  input.action = static_cast<grass::TreadAction>(event.tread.action);
+  input.start = fromMsg(event.tread.start);
+  input.position = fromMsg(event.tread.position);
+  input.law.reach = event.tread.law.reach;
+  const double work = simulation.workOf(input);
+  return work > 0.0 ? std::min(work, MOST_WORK) : 0.0;
 }
 
 }  // namespace vegetation_sim

@@ -54,6 +54,8 @@ GrassField::GrassField(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   field_ = std::make_unique<grass::TreadSimulation>(layout, scene.terrain, scene.grass.treading,
                                                     *tread_);
   field_->setDrag(tuning_.drag);
+  inputs_.setCost(
+      [this](const GrassEvent& event) { return static_cast<std::size_t>(workOf(event, *field_)); });
   if (isPart() && showsAll()) {
     whole_ = std::make_unique<WholeMeadow>(layout, scene.terrain, scene.grass.treading);
     whole_->field().setDrag(tuning_.drag);

@@ -4,6 +4,7 @@
 
 #include "nodes/cutters/cut_request.h"
 #include "nodes/grass/grass_field.h"
+#include "nodes/grass/waiting_areas.h"
 #include "ros/services/subscriptions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
@@ -52,8 +53,9 @@ void GrassField::onTread(const TreadEvent& message) {
     if (use == NearTreads::Use::NONE) return;
     if (use == NearTreads::Use::LIFT) tread.action = TreadEvent::LIFT;
     const grass::TreadInput input = fromMsg(tread, tuning_.tread, tuning_.height_gate);
-    if (use == NearTreads::Use::ALL) near_treads_->keep(tread);
     if (input.action == grass::TreadAction::STROKE) field_->checkStroke(input);
+    checkWorkToWait(inputs_, field_->workOf(input));
+    if (use == NearTreads::Use::ALL) near_treads_->keep(tread);
     GrassEvent event = treadEvent(input);
     event.header.stamp = effectOf(message.header.stamp, clock_);
     if (isPart() && event.header.stamp.isZero() && !message.header.stamp.isZero()) ++late_treads_;

@@ -59,6 +59,7 @@ void GrassField::queuePath(const std::vector<Vec3>& path, const grass::TreadLaw&
   input.source = PATH + std::to_string(++paths_);
   input.law = law;
   input.height_gate = 1000.0;  // a path is on the ground
+  checkWorkToWait(inputs_, static_cast<double>(steps.size()) * field_->workOf(input));
   const auto add = [&] {
     GrassEvent event = treadEvent(input);
     event.header.stamp = stamp;
@@ -161,7 +162,7 @@ bool GrassField::onCut(CutGrass::Request& request, CutGrass::Response& response)
     event.kind = GrassEvent::CUT;
     const ros::Time effect = event.header.stamp = effectOf(request.header.stamp, clock_);
     event.cut = toMsg(area);
-    checkRoomToWait(inputs_, event.cut);
+    checkRoomToWait(inputs_, event.cut, workOf(event, *field_));
     enqueue(std::move(event));
     return describeEffect(effect);
   });
@@ -181,6 +182,7 @@ bool GrassField::onSetColours(SetGrassColours::Request& request,
     GrassColours message;
     message.colours = request.colours;
     setColours(fromMsg(message).list, clock_.stamp());
+    checkpointNow();  // no event shows them
     return std::to_string(request.colours.size()) + " discs";
   });
 }

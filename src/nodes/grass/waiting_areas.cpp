@@ -11,9 +11,15 @@ std::size_t pointsOf(const GrassCut& cut) {
 
 }  // namespace
 
-void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut) {
+void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut, double work) {
   inputs.checkShare("points of cuts that wait", pointsOf(cut), MOST_WAITING_POINTS,
                     [](const GrassEvent& event) { return pointsOf(event.cut); });
+  checkWorkToWait(inputs, work);
+}
+
+void checkWorkToWait(const EventQueue<GrassEvent>& inputs, double work) {
+  inputs.checkCost("nodes of treads and cuts that wait", static_cast<std::size_t>(work),
+                   MOST_WAITING_WORK);
 }
 
 }  // namespace vegetation_sim

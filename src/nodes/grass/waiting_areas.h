@@ -11,10 +11,17 @@
 namespace vegetation_sim {
 
 /// Largest number of points in the outlines of all areas to cut that wait for their tick together,
-/// those of swaths included: 48 MB. A client may have half of what others leave.
+/// those of swaths included: 48 MB.
 constexpr std::size_t MOST_WAITING_POINTS = 2'000'000;
 
-/// Checks that a cut of this area may wait. @throws InvalidInput
-void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut);
+/// Largest work of all treads and cuts that wait for their tick together, in nodes to press: one
+/// tick takes about a second for them.
+constexpr std::size_t MOST_WAITING_WORK = 100'000'000;
+
+/// Checks that a cut of this area and work may wait; a client may have half of what others leave of
+/// the limits. @throws InvalidInput
+void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut, double work);
+/// Checks that what has this work may wait. @throws InvalidInput
+void checkWorkToWait(const EventQueue<GrassEvent>& inputs, double work);
 
 }  // namespace vegetation_sim

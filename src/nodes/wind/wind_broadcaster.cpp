@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wind/wind_broadcaster.h"
 
+#include <utility>
+
 #include "nodes/base/freed_memory.h"
 #include "nodes/base/node_factory.h"
 #include "nodes/markers/wind_markers.h"
@@ -64,8 +66,9 @@ void WindBroadcaster::beginScenario(Nanoseconds now) {
   follower_.clear();
   for (const wind::Source& source : settings_.sources)
     if (!source.attached_frame.empty()) follower_.set(wind::startedAt(source, now));
+  breeze_ = settings_.breeze;
   publishField();
-  showBreeze(settings_.breeze);
+  showBreeze();
 }
 
 Nanoseconds WindBroadcaster::earliest() const {
@@ -88,7 +91,6 @@ std::optional<wind::Primitive> WindBroadcaster::apply(const wind::Source& source
   }
   follower_.remove(filled.name);
   schedule_ = std::move(edited);
-  publishField();
   return filled;
 }
 
@@ -114,10 +116,20 @@ void WindBroadcaster::prune(const ros::TimerEvent&) {
   if (clock_.running() && schedule_.prune(clock_.now())) publishField();
 }
 
+void WindBroadcaster::checkpoint() {
+  acceptInput("checkpoint", [this] { snapshots_.checkpoint(); });
+}
+
 // A wind that others know survives a kill, so the checkpoint comes first.
 void WindBroadcaster::publishField() {
-  acceptInput("checkpoint", [this] { snapshots_.checkpoint(); });
+  checkpoint();
   field_publisher_.publish(toMsg(schedule_.field(), settings_.frame_id, clock_.now()));
+}
+
+void WindBroadcaster::publishEdit() {
+  const bool is_other_breeze = updateBreeze();
+  publishField();
+  if (is_other_breeze) showBreeze();
 }
 
 void WindBroadcaster::publishMarkers(const ros::TimerEvent&) {
@@ -133,17 +145,16 @@ void WindBroadcaster::publishSamples(const ros::TimerEvent&) {
   samples_publisher_.publish(probes_.sample(schedule_.field(), clock_.now()));
 }
 
-void WindBroadcaster::showBreeze(const BreezeSettings& breeze) {
-  breeze_ = breeze;
+void WindBroadcaster::showBreeze() {
   reconfigure_.updateConfig(toConfig(breeze_));
 }
 
-void WindBroadcaster::updateBreeze() {
+bool WindBroadcaster::updateBreeze() {
   BreezeSettings now = breeze_;
   now.speed = 0.0;
   if (const auto found = schedule_.find(BreezeSettings::NAME, earliest()))
     now = BreezeSettings::of(*found, breeze_.direction);
-  if (now != breeze_) showBreeze(now);
+  return std::exchange(breeze_, now) != now;
 }
 
 void WindBroadcaster::diagnose(Status& status) {

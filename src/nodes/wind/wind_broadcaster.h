@@ -49,19 +49,23 @@ class WindBroadcaster final : public NodeBase {
   /// Restores the state of a start at `now`, or of the newest checkpoint at the start of the node.
   void begin(Nanoseconds now);
   void beginScenario(Nanoseconds now);
-  /// Applies a source. @return its primitive; none if it follows a frame.
+  /// Applies a source, and publishes nothing. @return its primitive; none if it follows a frame.
   /// @throws InvalidInput with `faults` and its own; nothing has changed then.
   std::optional<wind::Primitive> apply(const wind::Source& source, Faults faults = {});
   void remove(const std::string& name);
   void follow(const ros::TimerEvent& event);
   void prune(const ros::TimerEvent& event);
+  void checkpoint();
+  /// Writes a checkpoint and publishes the field. The state is complete by then.
   void publishField();
+  /// Publishes the field after an edit, and shows a breeze that has changed.
+  void publishEdit();
   void publishMarkers(const ros::TimerEvent& event);
   void publishSamples(const ros::TimerEvent& event);
   /// Shows the breeze in dynamic_reconfigure.
-  void showBreeze(const BreezeSettings& breeze);
-  /// Shows the breeze of the schedule if an edit has changed it.
-  void updateBreeze();
+  void showBreeze();
+  /// Takes the breeze of the schedule. @return whether an edit has changed it.
+  bool updateBreeze();
   SnapshotCalls snapshotCalls();
   std::uint64_t sceneHash() const;
   SnapshotFile snapshot() const;

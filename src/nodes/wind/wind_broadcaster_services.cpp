@@ -48,8 +48,11 @@ bool WindBroadcaster::setPrimitive(SetWindPrimitive::Request& request,
     Faults faults;
     const wind::Source source = sourceFromMsg(request.primitive, settings_.frame_id, faults);
     const auto published = apply(source, faults);
-    updateBreeze();
-    if (!published) return "begins once tf has a transform of " + source.attached_frame;
+    if (!published) {
+      checkpoint();  // the field has it once tf has the frame
+      return "begins once tf has a transform of " + source.attached_frame;
+    }
+    publishEdit();
     response.id = published->id;
     response.t_on = toStamp(published->t_on);
     return "begins at " + std::to_string(secondsBetween(0, published->t_on)) + " s";
@@ -65,8 +68,7 @@ bool WindBroadcaster::removePrimitive(RemoveWindPrimitive::Request& request,
       for (const std::string& name : schedule_.names(earliest())) remove(name);
       for (const std::string& name : follower_.names()) remove(name);
     }
-    publishField();
-    updateBreeze();
+    publishEdit();
     return "";
   });
 }
@@ -88,6 +90,7 @@ void WindBroadcaster::reconfigure(WindBroadcasterConfig& config, std::uint32_t l
       base.t_on = base.t_off = 0;
       apply({wanted.applyTo(base), ""});
       breeze_ = wanted;
+      publishField();
       return "";
     });
   }

@@ -57,8 +57,9 @@ CheckedState WindBroadcaster::readPayload(const std::string& payload, Nanosecond
   return {schedule.field().hash(), [=] {
             schedule_ = schedule;
             follower_.restore(followed);
+            breeze_ = breeze;
             publishField();
-            showBreeze(breeze);
+            showBreeze();
           }};
 }
 

@@ -12,15 +12,18 @@ import rostest
 from geometry_msgs.msg import Point
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import ErrorCode, GrassCut
+from vegetation_sim.msg import ErrorCode, GrassCut, TreadEvents, TreadLaw
 
 from forest_rig import TickClock, memory_of
-from grass_rig import FULL, RATE, Feet, Meadow, step, time_of
+from grass_rig import FULL, RATE, Feet, Meadow, step, time_of, wide_stroke
+from waiting import wait_for
+from watched_node import publisher, wait_for_readers
 
 MOST_WAITING = 10000  # limit of the inputs of one client that may wait for a tick
 PER_SECOND = 10000
 MOST_OUTLINE = 1000  # points of the outline or the swath of a cut
 MOST_POINTS = 1000000  # of all cuts of one client that wait
+MOST_WIDE = 30  # wide strokes across the lawn that press 5e7 nodes, or fewer: the share of a client
 
 
 class GrassFlood(unittest.TestCase):
@@ -101,6 +104,32 @@ class GrassFlood(unittest.TestCase):
         self.clock.run(6, self.grass)
         answer = self.grass.cut(cut=one)
         self.assertTrue(answer.success, answer.message)
+
+    # One message has more strokes than a tick has time for: their work is bounded in nodes, and
+    # those that are refused are counted.
+    def test_5_the_work_of_many_strokes_is_bounded(self):
+        self.clock.run(1, self.grass)  # nothing waits
+        before = self.grass.diagnostics()
+        names = ['wide_%05d' % i for i in range(MOST_WAITING)]
+        treads = publisher('/treads', TreadEvents)
+        wait_for_readers('/treads', '/grass_field')
+        treads.publish(TreadEvents(events=[wide_stroke(name, (-20.0, 0.0), (20.0, 0.0))
+                                           for name in names]))
+        self.grass.settle()
+        refused = int(self.grass.diagnostics()['Inputs refused'] - before['Inputs refused'])
+        self.assertGreater(refused, MOST_WAITING - MOST_WIDE)
+        self.clock.run(1, self.grass)
+        after = self.grass.diagnostics()
+        self.assertEqual(after['Inputs taken'] - before['Inputs taken'], MOST_WAITING - refused)
+        self.assertEqual(after['Inputs lost'], before['Inputs lost'])
+        wait_for(lambda: self.grass.trodden('wide_') == names[:MOST_WAITING - refused],
+                 'the events of the strokes in their order')
+        path = [Point(0.01 * i, 0.0, 0.0) for i in range(1000)]
+        law = TreadLaw(has_reach=True, reach=10.0)
+        answer = self.grass.tread(points=path, law=law)
+        self.assertEqual((answer.success, answer.error_code), (False, ErrorCode.NO_ROOM))
+        self.assertIn('nodes of treads and cuts that wait = ', answer.message)
+        self.assertTrue(self.grass.tread(points=path[:10], law=law).success)
 
 
 if __name__ == '__main__':

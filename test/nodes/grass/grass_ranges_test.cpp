@@ -11,6 +11,7 @@
 #include "core/config/field_values.h"
 #include "nodes/base/event_queue.h"
 #include "nodes/grass/grass_options.h"
+#include "nodes/grass/waiting_areas.h"
 #include "nodes/rigs/declared_fields.h"
 
 namespace vegetation_sim {
@@ -94,6 +95,46 @@ TEST(EventQueue, IsBoundedAndCountsRejectedInputs) {
   EXPECT_EQ(replay.losses().lost, 3u);
   replay.forget([](const GrassEvent&) { return true; });
   EXPECT_TRUE(replay.take(TICK).empty());
+}
+
+// A cost is counted while its event waits, however that comes and goes.
+TEST(EventQueue, AddsUpWhatWaits) {
+  Queue queue(false);
+  queue.setCost([](const GrassEvent& event) { return event.radius; });
+  GrassEvent soon = at(0), later = at(9);
+  soon.radius = 2.0;
+  later.radius = 30.0;
+  queue.add(soon);
+  queue.add(later);
+  queue.addFirst(soon);
+  EXPECT_EQ(queue.cost(), 34.0);
+  queue.take(3 * TICK);
+  EXPECT_EQ(queue.cost(), 30.0);
+  queue.restore({soon, later, later});
+  EXPECT_EQ(queue.cost(), 62.0);
+  queue.forget([](const GrassEvent& event) { return event.radius == 2.0; });
+  EXPECT_EQ(queue.cost(), 60.0);
+  queue.take(9 * TICK);
+  EXPECT_EQ(queue.cost(), 0.0);
+}
+
+TEST(WaitingAreas, TheirWorkIsBoundedTogether) {
+  Queue queue(false);
+  queue.setCost([](const GrassEvent& event) { return event.radius; });
+  GrassEvent event;
+  event.radius = MOST_WAITING_WORK - 5.0;
+  queue.add(event);
+  EXPECT_NO_THROW(checkWorkToWait(queue, 5.0));
+  try {
+    checkWorkToWait(queue, 6.0);
+    FAIL() << "one node more may wait";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.code(), FaultCode::NO_ROOM);
+    EXPECT_STREQ(error.what(),
+                 "nodes of treads and cuts that wait = 100000001 with the 6 of this request, "
+                 "allowed are 0 to 100000000");
+  }
+  EXPECT_THROW(checkRoomToWait(queue, GrassCut(), 6.0), InvalidInput);
 }
 
 }  // namespace

@@ -54,6 +54,11 @@ class Meadow(WatchedNode):
         """Returns the hashes of the trodden ground by stamps of the key frames."""
         return {m.header.stamp: m.hash for m in self.state.messages if m.key_frame}
 
+    def trodden(self, prefix):
+        """Returns the sources of the treads that were applied, in order, whose names begin so."""
+        return [e.tread.source for e in self.events.messages
+                if e.kind == GrassEvent.TREAD and e.tread.source.startswith(prefix)]
+
     def entered(self, source):
         """Returns the tiles that a source entered."""
         return [(e.column, e.row) for e in self.events.messages
@@ -101,6 +106,12 @@ def step(source, x, y, z=0.0, **fields):
     return message
 
 
+def wide_stroke(source, start, end, **fields):
+    """Returns a stroke of the largest reach, which presses millions of nodes."""
+    return step(source, *end, action=TreadEvent.STROKE, start=Point(*start, 0.0),
+                law={'reach': 10.0}, **fields)
+
+
 def nodes_of(message):
     """Returns the values of the published nodes of a GrassState by row and column."""
     out = {}
@@ -123,4 +134,5 @@ def start_meadow(name, remappings, **parameters):
                             ['%s:=%s' % pair for pair in remappings.items()])
 
 
-__all__ = ['FULL', 'RATE', 'Feet', 'Meadow', 'nodes_of', 'start_meadow', 'step', 'time_of']
+__all__ = ['FULL', 'RATE', 'Feet', 'Meadow', 'nodes_of', 'start_meadow', 'step', 'time_of',
+           'wide_stroke']

@@ -10,8 +10,9 @@ from std_msgs.msg import Header
 from vegetation_sim.msg import GrassColour, GrassCut
 
 from forest_rig import time_of
-from grass_rig import Feet, Meadow, step
+from grass_rig import Feet, Meadow, step, wide_stroke
 from snapshot_rig import START, SnapshotCase
+from waiting import wait_for
 
 
 def points(*places):
@@ -61,6 +62,50 @@ class GrassSnapshot(SnapshotCase):
         self.assertNotAlmostEqual(before, after, 2)
         node.load('coloured')
         self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, before, 6)
+
+    # No event shows the discs, so each change is a checkpoint.
+    def test_discs_of_colour_survive_a_kill(self):
+        node = self.start('coloured', 0, checkpoint_period=1000.0, checkpoint=True)
+        self.run_to(node, 0, 3)
+        disc = GrassColour(x=1.0, y=2.0, radius=3.0, colour=0.5, weight=2.0)
+        self.assertTrue(node.client.set_colours(colours=[disc]).success)
+        before = node.client.at(1.0, 2.0).colour
+        self.restart(node)
+        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, before, 6)
+        self.assertTrue(node.client.set_colours(colours=[]).success)
+        self.assertNotAlmostEqual(node.client.at(1.0, 2.0).colour, before, 2)
+
+    def restart(self, node):
+        """Kills a node, and runs a tick of the next process."""
+        node.kill()
+        node.client.wait_until_up(node.namespace + 'tread')
+        self.clock.run(1, node.client)
+
+    # The work that waits is bounded in the next process as it was, and none of it is lost.
+    def test_work_that_waits_survives_a_kill(self):
+        hashes, refused = [], []
+        for name, kills in ('plain', False), ('killed', True):
+            node = self.start(name, 0, checkpoint_period=1000.0, checkpoint=True)
+            self.run_to(node, 0, 2)
+            later = Header(stamp=time_of(START + 8))
+            names = ['wide_%03d' % i for i in range(150)]
+            for wide in names:
+                node.feet.send(wide_stroke(wide, (-9.0, 0.0), (9.0, 0.0), header=later))
+            refused.append(int(node.client.diagnostics()['Inputs refused']))
+            self.assertTrue(0 < refused[0] < len(names), refused)
+            if kills:
+                self.restart(node)
+                node.feet.send(wide_stroke('more', (-9.0, 0.0), (9.0, 0.0), header=later))
+                self.assertEqual(node.client.diagnostics()['Inputs refused'], 1)
+            else:
+                self.clock.run(1, node.client)
+            self.run_to(node, 3, 8)
+            hashes.append(node.state_hash())
+            wait_for(lambda: node.client.trodden('wide_') == names[:len(names) - refused[0]],
+                     'the events of the strokes')
+            node.stop()
+        self.assertEqual(*refused)
+        self.assertEqual(*hashes)
 
     def test_displays_get_a_complete_state_after_a_load(self):
         node = self.start('shown', 0)

@@ -58,8 +58,7 @@ struct CutState {
 /// grow again.
 class CutMap {
  public:
-  /// Limit of the work of one area, in nodes of its bounding box and corners per row; it takes
-  /// about half a second.
+  /// Limit of the work of an outline; it takes about half a second.
   static constexpr double MOST_WORK = 2e6;
 
   CutMap() : CutMap(MapLaw(), 1, 0.0) {}
@@ -72,6 +71,9 @@ class CutMap {
   double cut(const FeatureMap& map, const CutArea& area);
   /// @throws InvalidInput as cut() does.
   void checkWork(const CutArea& area) const;
+  /// Returns the work of a checked area and its swath, in nodes of their bounding boxes and corners
+  /// per row.
+  double workOf(const CutArea& area) const;
 
   /// Returns the nearest node.
   CutNode at(const Point& place) const;
@@ -100,6 +102,7 @@ class CutMap {
  private:
   using Places = std::vector<std::pair<int, int>>;  ///< rows and columns
   Places placesIn(const std::vector<Point>& outline, double radius) const;
+  double workOf(const std::vector<Point>& outline, double radius) const;
   CutNode* nodeAt(const std::pair<int, int>& place);
   CutNode* changeAt(const std::pair<int, int>& place);
   CutNode nodeOf(int row, int column) const;

@@ -101,6 +101,7 @@ class GrabManagerRig {
     return grabs_manager_.release(request);
   }
   ForestInputs& inputs() { return inputs_; }
+  GrabManager::State state() const { return grabs_manager_.state(); }
   std::string errorAtTick(ForestInput event) {
     return errorOf([&] { grabs_manager_.followFrame(event); });
   }
@@ -305,6 +306,32 @@ TEST(GrabManager, AllGrabsAreReleasedOrNone) {
   rig.tick();
   EXPECT_EQ(rig.forest().grabs().size(), 4u);
   EXPECT_EQ(rig.releaseAll(), "4 released");
+}
+
+// A checkpoint may be written while the queue takes a grab: it needs the id and the request.
+TEST(GrabManager, GrabIsKnownBeforeItWaits) {
+  GrabManagerRig rig;
+  std::vector<GrabManager::State> saved;
+  rig.inputs().observe([&](const ForestInput&) { saved.push_back(rig.state()); });
+  Grab::Request request;
+  request.branch = 46;
+  const std::uint32_t id = rig.grab(request);
+  ASSERT_EQ(saved.size(), 1u);
+  EXPECT_EQ(saved[0].last_id, id);
+  EXPECT_EQ(saved[0].requests.count(id), 1u);
+}
+
+TEST(GrabManager, GrabThatFindsNoRoomIsForgotten) {
+  GrabManagerRig rig;
+  Grab::Request request;
+  request.branch = 46;
+  rig.grab(request);
+  ForestInput force;
+  force.kind = ForestInput::FORCE;
+  while (rig.inputs().add(force)) continue;
+  EXPECT_THROW(rig.grab(request), InvalidInput);
+  EXPECT_EQ(rig.state().last_id, 1u);
+  EXPECT_EQ(rig.state().requests.size(), 1u);
 }
 
 }  // namespace
