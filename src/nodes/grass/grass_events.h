@@ -37,6 +37,7 @@ std::pair<Range, Range> rangesOf(const grass::MapLaw& law);
 void checkPoint(std::size_t index, Vec3 point, Faults& faults);
 /// @throws InvalidInput for a number of points out of range.
 void checkCount(std::size_t count, std::size_t most);
+
 /// Returns at most how many nodes the tread or cut of an event presses, in the time of which it is
 /// applied. An event that is no valid one has no work: it is refused.
 double workOf(const GrassEvent& event, const grass::TreadSimulation& simulation);
