@@ -90,7 +90,7 @@ TEST_F(FieldTest, AStrokeOfTooMuchWorkIsRejected) {
   EXPECT_EQ(errorOf([&] { field.checkStroke(stroke); }), "");
   stroke.law.reach = 10.0;
   EXPECT_EQ(errorOf([&] { field.apply(stroke, now()); }),
-            "stroke of source 'path': 520033618 nodes to press, more than the 50000000 allowed");
+            "stroke of source 'path': 520162618 nodes to press, more than the 50000000 allowed");
   EXPECT_TRUE(field.sources().empty());
 }
 
