@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopy/canopy_layout_reader.h"
+
 namespace vegetation_sim::canopy {
 namespace {
 
