@@ -119,9 +119,10 @@ TEST(ShardRegistry, NamesNodesThatDoNotFit) {
 // Services below the name of a node are called by name.
 TEST(ShardRegistry, RefusesInvalidNames) {
   ShardRegistry registry(announced(1, 3, "/own"));
-  for (const std::string& name : {"", "/bad name", "relative", "~private", "/a!", "/\n"})
-    EXPECT_EQ(errorOf([&] { registry.hear(announced(2, 3, name), PROCESS, BEGIN); }),
-              "node = '" + name + "'; allowed are resolved names of up to 256 letters");
+  for (const char* name : {"", "/bad name", "relative", "~private", "/a!", "/\n"})
+    EXPECT_EQ(
+        errorOf([&] { registry.hear(announced(2, 3, name), PROCESS, BEGIN); }),
+        "node = '" + std::string(name) + "'; allowed are resolved names of up to 256 letters");
   const std::string longest = "/" + std::string(255, 'a');
   EXPECT_EQ(errorOf([&] { registry.hear(announced(2, 3, longest + "a"), PROCESS, BEGIN); }),
             "node = " + inQuotes(longest) + "; allowed are resolved names of up to 256 letters");

@@ -232,7 +232,7 @@ class ForestRequests(unittest.TestCase):
         for i in range(MOST_AHEAD):
             message.id = 'far %d' % i
             self.sensor.send(message, *([self.forest] if i % 50 == 49 else []))
-        self.expect_refusal('forest/sensors', 'stamp = %d.000 s is ' % FAR.secs, 'ahead, allowed are 60 s')
+        self.expect_refusal('sensor: stamp = %d.000 s is ' % FAR.secs, 'ahead, allowed are 60 s')
         message.id, message.header.stamp = 'near', time_of(self.clock.tick + 6)
         self.sensor.send(message, self.forest)
         self.clock.run(6, self.forest)
