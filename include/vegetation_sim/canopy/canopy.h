@@ -32,8 +32,8 @@ struct CanopySnapshot {
   CutState cuts;
   bool has_cuts{false};  ///< layers have been cut
   PushState push;
-  /// Hash without the cuts and the driver of the front layer: they depend on the viewer, who changes
-  /// nothing that sensors and bodies meet.
+  /// Hash without the cuts and the driver of the front layer: they depend on the viewer, who
+  /// changes nothing that sensors and bodies meet.
   std::uint64_t hash() const;
 };
 
