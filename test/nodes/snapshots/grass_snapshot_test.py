@@ -7,7 +7,7 @@ import rostest
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point, PointStamped
 from std_msgs.msg import Header
-from vegetation_sim.msg import GrassColour, GrassCut
+from vegetation_sim.msg import GrassColour, GrassCut, TreadLaw
 
 from forest_rig import time_of
 from grass_rig import Feet, Meadow, step, wide_stroke
@@ -81,6 +81,10 @@ class GrassSnapshot(SnapshotCase):
         node.client.wait_until_up(node.namespace + 'tread')
         self.clock.run(1, node.client)
 
+    def tread_much(self, node):
+        path = [Point(0.01 * i, 0.0, 0.0) for i in range(200)]
+        return node.client.tread(points=path, law=TreadLaw(has_reach=True, reach=10.0))
+
     # The work that waits is bounded in the next process as it was, and none of it is lost.
     def test_work_that_waits_survives_a_kill(self):
         hashes, refused = [], []
@@ -95,12 +99,15 @@ class GrassSnapshot(SnapshotCase):
             self.assertTrue(0 < refused[0] < len(names), refused)
             if kills:
                 self.restart(node)
-                node.feet.send(wide_stroke('more', (-9.0, 0.0), (9.0, 0.0), header=later))
-                self.assertEqual(node.client.diagnostics()['Inputs refused'], 1)
+                answer = self.tread_much(node)
+                self.assertIn('nodes of treads and cuts that wait = ', answer.message)
+                self.assertFalse(answer.success)
             else:
                 self.clock.run(1, node.client)
             self.run_to(node, 3, 8)
             hashes.append(node.state_hash())
+            answer = self.tread_much(node)  # nothing waits
+            self.assertTrue(answer.success, answer.message)
             wait_for(lambda: node.client.trodden('wide_') == names[:len(names) - refused[0]],
                      'the events of the strokes')
             node.stop()
