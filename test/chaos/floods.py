@@ -38,13 +38,13 @@ def find_topics():
 
 
 def find_services():
-    """Returns the services whose requests have fields, with their nodes."""
+    """Returns the services whose requests can be bad, with their nodes."""
     out = []
     for service, node in sorted(_pairs(2)):
         if service.rpartition('/')[2] in OF_ROSCPP:
             continue
         kind = rosservice.get_service_class_by_name(service)
-        if kind._request_class.__slots__:
+        if set(kind._request_class._slot_types) - {'bool'}:
             out.append((service, node))
     return out
 
