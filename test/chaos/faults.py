@@ -27,6 +27,7 @@ JITTER = 3.0, 10.0    # duration of a jitter, and of the time between two [s] of
 IN_TRANSIT = 0.4      # [s] of wall time after which all that a dead process sent has arrived
 SETTLED = 1.5         # [s] after a start; then the recorder has all connections
 JOURNAL_PERIOD = 0.2  # [s] of wall time
+SENSOR = 'vegetation_scanner'
 IGNORED = 'Messages of other viewers'
 WARM_ROUNDS = 1       # of all faults after the last kill, before memory is measured
 PAUSES = 0.2, 1.5     # [s] of wall time between two faults
@@ -161,12 +162,17 @@ class Faults:
         rival = rospy.Publisher('/' + topic, message_class, queue_size=10)
         wait_for(rival.get_num_connections, 'readers of ' + topic)
         since = time.monotonic()
+        # The sensor may wait for the next complete state, for which time must go on.
+        scanner = self._rig.processes.begin(SENSOR)
         for raw in self._rig.recording.rival_messages(topic):
             rival.publish(make_raw(message_class, raw))
         pause(RIVALRY)
         rival.unregister()
         for node in OWNED[topic]:
             self.expect('second publisher', node, 'publishers of /' + topic, since)
+        end = time.monotonic()
+        wait_for(lambda: self._rig.ticks.arrival[SENSOR] > end, 'a sweep')
+        scanner[2] = time.monotonic()
 
     def flood_topic(self, topic):
         since = time.monotonic()
