@@ -241,7 +241,7 @@ class CameraGarden(unittest.TestCase):
                 ('R[0] = 0 is outside 0.999 to 1.001', dict(R=[0.0] * 9)),
                 ('R is no rotation', dict(D=[-0.1] + [0.0] * 4, R=[1.0] * 9)),
                 ('roi.x_offset = 3 is outside 0 to 0', dict(roi=RegionOfInterest(x_offset=3))),
-                ("distortion_model = '" + 60 * 'x' + "' is not", dict(distortion_model=1000 * 'x')),
+                ("distortion_model = '" + 60 * 'x' + "...' is not", dict(distortion_model=1000 * 'x')),
                 ('binning_x = 2 is outside 0 to 1', dict(binning_x=2)),
                 ('no inverse at pixel', dict(D=[-9.0, 0.0, 0.0, 0.0, 0.0]))):
             with self.subTest(words=words):
