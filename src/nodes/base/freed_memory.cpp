@@ -18,17 +18,6 @@ std::size_t countFreedBytes() {
 #endif
 }
 
-/// Bytes of small and of large blocks.
-std::size_t countUsedBytes() {
-#if __GLIBC_PREREQ(2, 33)
-  const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-#else
-  const auto info = mallinfo();
-  return std::size_t{static_cast<unsigned>(info.uordblks)} + static_cast<unsigned>(info.hblkhd);
-#endif
-}
-
 }  // namespace
 #endif
 
@@ -40,8 +29,12 @@ void limitFreedMemory() {
 }
 
 std::size_t countUsedMemory() {
-#ifdef __GLIBC__
-  return countUsedBytes();
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;  // small and large blocks
+#elif defined(__GLIBC__)
+  const auto info = mallinfo();
+  return std::size_t{static_cast<unsigned>(info.uordblks)} + static_cast<unsigned>(info.hblkhd);
 #else
   return 0;
 #endif

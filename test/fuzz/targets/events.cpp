@@ -9,6 +9,7 @@
 #include "forest/forest.h"
 #include "fuzz/targets/decoding.h"
 #include "fuzz/targets/target_lists.h"
+#include "fuzz/targets/two_bushes.h"
 #include "fuzz/targets/usage.h"
 #include "grass/tread_simulation.h"
 #include "nodes/canopy/canopy_options.h"
@@ -75,7 +76,7 @@ std::string settingsPiece(const Tuning& tuning) {
 
 class ForestRig {
  public:
-  ForestRig() : forest_(layout(), forest::flatTerrain(), {}) {}
+  ForestRig() : forest_(twoBushes(), forest::flatTerrain(), {}) {}
 
   void advance(Nanoseconds stamp) {
     forest_.advance(stamp);
@@ -107,16 +108,6 @@ class ForestRig {
   }
 
  private:
-  static forest::Layout layout() {
-    forest::Layout out;
-    out.species.resize(1);
-    out.species[0].name = "bush";
-    out.species[0].height = 1.5;
-    out.species[0].limbs.resize(1);
-    out.trees.resize(2);
-    out.trees[1].position = Vec3(2.0, 0.0, 0.0);
-    return out;
-  }
   forest::Forest forest_;
 };
 

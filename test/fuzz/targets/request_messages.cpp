@@ -9,6 +9,7 @@
 #include "forest/trees_around.h"
 #include "fuzz/targets/decoding.h"
 #include "fuzz/targets/target_lists.h"
+#include "fuzz/targets/two_bushes.h"
 #include "fuzz/targets/usage.h"
 #include "nodes/forest/grab_manager.h"
 #include "nodes/forest/tree_requests.h"
@@ -25,17 +26,6 @@ namespace {
 
 const Pose FRAME{Vec3(0.1, 0.2, 0.3), normalized({0.9, 0.0, 0.0, 0.4})};
 
-forest::Layout bushes() {
-  forest::Layout out;
-  out.species.resize(1);
-  out.species[0].name = "bush";
-  out.species[0].height = 1.5;
-  out.species[0].limbs.resize(1);
-  out.trees.resize(2);
-  out.trees[1].position = Vec3(2.0, 0.0, 0.0);
-  return out;
-}
-
 // Requests that need no state but the scene, and treads, odometry and colours.
 
 enum RequestPiece { PICK, FIND, CLEAR, PATH, COLOURS, TREADS, ODOMETRY, REQUEST_PIECES };
@@ -46,7 +36,7 @@ void readWith(std::string_view bytes, const Use& use) {
 }
 
 void pickBush(const Pick::Request& request) {
-  static const forest::Forest FOREST(bushes(), forest::flatTerrain(), {});
+  static const forest::Forest FOREST(twoBushes(), forest::flatTerrain(), {});
   const auto hit =
       forest::pickTree(FOREST.layout(), FOREST.terrain(), rayOf(request), [](std::uint32_t id) {
         forest::PosedTree out;
@@ -59,7 +49,7 @@ void pickBush(const Pick::Request& request) {
 }
 
 void findTrees(const FindTrees::Request& request) {
-  static const forest::Layout LAYOUT = bushes();
+  static const forest::Layout LAYOUT = twoBushes();
   check(request);
   for (const std::uint32_t id :
        forest::treesAround(LAYOUT, fromMsg(request.centre.point), request.radius))
@@ -237,7 +227,7 @@ class GrabRig {
   Nanoseconds stamp_{START};
   int ticks_{0};
   ForestOptions options_;
-  forest::Forest forest_{bushes(), forest::flatTerrain(), {}};
+  forest::Forest forest_{twoBushes(), forest::flatTerrain(), {}};
   forest::TreeCache cache_{10000};
   ForestInputs inputs_{false};
   tf2_ros::Buffer tf_;
