@@ -14,8 +14,9 @@ angular.z [rad/s], which turns that frame. It begins with the axes of the world.
 import math
 
 import rospy
-from geometry_msgs.msg import Pose, TransformStamped, Twist
+from geometry_msgs.msg import Point, Pose, TransformStamped, Twist
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from std_msgs.msg import ColorRGBA
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import Ground
 from visualization_msgs.msg import (InteractiveMarker, InteractiveMarkerControl,
@@ -25,6 +26,9 @@ RATE = 50.0  # [Hz]
 RADIUS = 0.45  # [m]
 WIDE, DEEP, PERIOD = 9.0, 5.0, 40.0  # Half axes of the curve [m] and time of one round [s].
 SIZES = (1.0, 0.88, 0.94)  # Diameters of the stone along its axes, relative to 2 RADIUS.
+ROUGHNESS = 0.05  # of the surface that is drawn, relative to RADIUS
+SPLITS = 3  # of each face of the octahedron from which the surface is made
+MARKER_PERIOD = 1.0  # [s]
 TOP_SPEED = 3.0  # [m/s]
 TOP_TURN = 3.0  # [rad/s]
 FARTHEST = 1e5  # Largest coordinate of a place to which the stone rolls [m].
@@ -64,6 +68,44 @@ def check(topic, unit, low, high, **values):
                 topic, name.replace('_', '.'), value, unit, low, high, unit))
 
 
+def waves(point, frequency):
+    """Returns a smooth function of a place within -1 to 1 that looks random."""
+    x, y, z = (frequency * part for part in point)
+    return (math.sin(1.7 * x + 2.3 * y + 0.4) + math.sin(2.1 * y - 1.3 * z + 1.9) +
+            math.sin(1.9 * z + 1.1 * x + 4.2)) / 3.0
+
+
+def unit(point):
+    length = math.sqrt(sum(part * part for part in point))
+    return tuple(part / length for part in point)
+
+
+def sphere_faces(splits):
+    """Returns the faces of a unit sphere, as three corners each, counterclockwise from outside."""
+    faces = []
+    for x, y, z in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)):
+        face = (x, 0, 0), (0, y, 0), (0, 0, z)
+        faces.append(face if x * y * z > 0 else face[::-1])
+    for _ in range(splits):
+        finer = []
+        for a, b, c in faces:
+            ab, bc, ca = (unit([i + j for i, j in zip(*edge)]) for edge in ((a, b), (b, c), (c, a)))
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        faces = finer
+    return faces
+
+
+def surface_at(direction):
+    """Returns the point of the stone in a direction, within its ellipsoid, and its colour."""
+    rough = 0.7 * waves(direction, 2.6) + 0.3 * waves(direction, 8.0)
+    reach = RADIUS * (1.0 - ROUGHNESS * (1.0 - rough))
+    moss = max(0.0, waves(direction, 1.9) + 0.4 * waves(direction, 11.0) - 0.1)
+    grey = 0.40 + 0.10 * rough + 0.05 * waves(direction, 17.0)
+    return (Point(*(reach * size * part for size, part in zip(SIZES, direction))),
+            ColorRGBA(grey * (1.04 - 0.5 * moss), grey * (1.0 - 0.2 * moss),
+                      grey * (0.93 - 0.7 * moss), 1.0))
+
+
 class RollingStone:
     def __init__(self):
         self.world = rospy.get_param('~frame_id', 'map')
@@ -73,7 +115,8 @@ class RollingStone:
         self.start = tuple(float(rospy.get_param('~' + name, 0.0)) for name in ('x', 'y'))
         self.order = None  # ('twist', forward, left, turn, time) or ('place', x, y)
         self.tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
-        self.markers = rospy.Publisher('stone/markers', MarkerArray, queue_size=1)
+        self.marker, self.marked = MarkerArray([self.solid()]), None
+        self.markers = rospy.Publisher('stone/markers', MarkerArray, queue_size=1, latch=True)
         self.server = InteractiveMarkerServer('stone')
         self.server.insert(self.handle(), self.on_feedback)
         self.server.applyChanges()
@@ -152,9 +195,9 @@ class RollingStone:
         at.x, at.y, at.z = self.centre
         out.transform.rotation = pose.orientation
         self.tf.publish(TFMessage([out]))
-        marker = self.solid()
-        marker.header.frame_id, marker.pose = self.world, pose
-        self.markers.publish(MarkerArray([marker]))
+        if self.marked is None or not 0.0 <= (now - self.marked).to_sec() < MARKER_PERIOD:
+            self.markers.publish(self.marker)
+            self.marked = now
         handle = Pose(position=pose.position)  # Its plane of motion stays level.
         handle.orientation.w = 1.0
         self.server.setPose('stone', handle)
@@ -162,10 +205,14 @@ class RollingStone:
 
     @staticmethod
     def solid():
-        out = Marker(ns='stone', type=Marker.SPHERE)
-        out.pose.orientation.w = 1.0
-        out.scale.x, out.scale.y, out.scale.z = (2.0 * RADIUS * size for size in SIZES)
-        out.color.r, out.color.g, out.color.b, out.color.a = 0.46, 0.44, 0.41, 1.0
+        """Returns the marker of the stone, which moves with its frame."""
+        out = Marker(ns='stone', type=Marker.TRIANGLE_LIST, frame_locked=True)
+        out.header.frame_id, out.pose.orientation.w = 'stone', 1.0
+        out.scale.x = out.scale.y = out.scale.z = 1.0
+        for face in sphere_faces(SPLITS):
+            for point, color in map(surface_at, face):
+                out.points.append(point)
+                out.colors.append(color)
         return out
 
     def handle(self):
