@@ -7,7 +7,7 @@
 namespace vegetation_sim {
 
 /// Freed memory that a process keeps for later at most [bytes].
-constexpr std::size_t MOST_FREED_MEMORY = 4'000'000;
+constexpr std::size_t MOST_FREED_MEMORY = 1'000'000;
 
 /// Large blocks are returned to the system as soon as they are freed from this size on [bytes].
 constexpr int LARGE_BLOCK = 1'000'000;

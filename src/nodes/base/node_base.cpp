@@ -41,6 +41,8 @@ void NodeBase::startDiagnostics() {
         acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
         announceShard();
       });
+  // The ticks that the node has missed since its checkpoint may take longer than the first period.
+  if (reports_of_start_ > 0) acceptInput("diagnostics", [this] { diagnostics_.force_update(); });
   beat_timer_ = handle_.createWallTimer(ros::WallDuration(BEAT_PERIOD),
                                         [this](const ros::WallTimerEvent&) { beat(); });
 }
@@ -57,10 +59,11 @@ void NodeBase::beat() {
 
 void NodeBase::warnOfInterruptions(Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  if (continued_from_)
+  if (reports_of_start_ > 0) {
+    --reports_of_start_;
     status.mergeSummaryf(DiagnosticStatus::WARN, "continues from its checkpoint of %.3f s",
-                         secondsBetween(0, *continued_from_));
-  continued_from_.reset();
+                         secondsBetween(0, continued_from_));
+  }
   if (longest_wait_ >= SHORTEST_WAIT)
     status.mergeSummaryf(DiagnosticStatus::WARN,
                          "no callback ran for %.1f s: the process was stopped, or one took so long",

@@ -188,8 +188,12 @@ class NodeBase {
   /// Warns of what has interrupted the node since the last report: a time without callbacks, as
   /// when its process is stopped, and a start that continues from a checkpoint.
   void warnOfInterruptions(Status& status);
-  /// To be called when the node begins with a checkpoint of this stamp.
-  void reportCheckpoint(Nanoseconds stamp) { continued_from_ = stamp; }
+  /// To be called when the node begins with a checkpoint of this stamp. The first reports say so:
+  /// the very first may have no reader yet.
+  void reportCheckpoint(Nanoseconds stamp) {
+    continued_from_ = stamp;
+    reports_of_start_ = 3;
+  }
 
   /// Runs `body`; what it throws is counted and reported as a rejected `what`.
   template <class Body>
@@ -252,8 +256,9 @@ class NodeBase {
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_, beat_timer_;
   std::optional<SteadyTime> last_beat_;
-  double longest_wait_{0.0};  // of callbacks since the last report [s of wall time]
-  std::optional<Nanoseconds> continued_from_;  // not reported yet
+  double longest_wait_{0.0};       // of callbacks since the last report [s of wall time]
+  Nanoseconds continued_from_{0};  // stamp of the checkpoint
+  int reports_of_start_{0};        // that are still to name continued_from_
 };
 
 }  // namespace vegetation_sim
