@@ -15,6 +15,18 @@ inline std::shared_ptr<const terrain::HeightMap> flatGround() {
   return std::make_shared<terrain::HeightMap>();
 }
 
+/// A plane that rises to the east, `rise` per metre, and is 0 at x = -50 m; 100 m by 100 m.
+inline std::shared_ptr<const terrain::HeightMap> risingGround(double rise) {
+  terrain::HeightMapLaw law;
+  law.resolution = 100.0;
+  law.origin = Vec3(-50, -50, 0);
+  law.height_max = 100.0 * rise;
+  terrain::GreyImage image;
+  image.columns = image.rows = 2;
+  image.samples = {0, 255, 0, 255};
+  return std::make_shared<terrain::HeightMap>(law, image);
+}
+
 /// Makes walls around a rectangle.
 inline std::vector<Obstacle> room(double x0, double y0, double x1, double y1) {
   return {wallObstacle({x0, y0}, {x1, y0}, 0.1), wallObstacle({x1, y0}, {x1, y1}, 0.1),
@@ -84,8 +96,9 @@ inline Crowd corridor(double width, std::uint64_t seed, const CrowdSettings& set
 }
 
 /// Ten wandering walkers in a room of 10 m.
-inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
-  Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, flatGround());
+inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings,
+                         const std::shared_ptr<const terrain::HeightMap>& ground = flatGround()) {
+  Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, ground);
   out.setObstacles(room(-5, -5, 5, 5));
   for (int i = 0; i < 10; ++i) {
     Spawn spawn;
