@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd.h"
+#include "crowd/body/motion_style.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
@@ -25,6 +26,15 @@ inline std::shared_ptr<const terrain::HeightMap> risingGround(double rise) {
   image.columns = image.rows = 2;
   image.samples = {0, 255, 0, 255};
   return std::make_shared<terrain::HeightMap>(law, image);
+}
+
+/// One style of motion, in which people hold both arms to the front.
+inline MotionStyles armsToTheFront() {
+  ChannelAngles angles{};
+  for (int side = 0; side < 2; ++side) angles[indexOf(Channel::SHOULDER, side)] = 0.5 * PI;
+  Clip::Keys keys;
+  keys.fill(angles);
+  return {{"arms to the front", Clip(keys), Clip(keys), Clip(), 4.0}};
 }
 
 /// Makes walls around a rectangle.
