@@ -259,13 +259,10 @@ TEST_F(CanopyDisplayTest, SlicesLookLikeLeavesOrPuffs) {
     rig.plant(4);  // other plants, so that the cloud is known to be the new one
     ASSERT_TRUE(rig.until([&] { return display->drawn().plants == 4; }));
     if (seen.empty()) seen.push_back(steadyPicture(rig));
-    const canopy::Layout cloud = cloudOf(look);
-    rig.plant(cloud);
+    rig.plant(cloudOf(look));
     rig.blow(1);
-    ASSERT_TRUE(rig.until([&] {
-      return display->drawn().plants == 1 && display->drawn().leaves == cloud.leafCount() &&
-             display->drawn().drawn > 0;
-    }));
+    ASSERT_TRUE(
+        rig.until([&] { return display->drawn().plants == 1 && display->drawn().drawn > 0; }));
     seen.push_back(steadyPicture(rig));
   }
   const double leaves = difference(seen[0], seen[1]), puffs = difference(seen[0], seen[2]);
