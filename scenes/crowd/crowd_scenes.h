@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowd/agents/crowd.h"
+#include "crowd/body/motion_style.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
@@ -13,6 +14,27 @@ namespace vegetation_sim::crowd {
 
 inline std::shared_ptr<const terrain::HeightMap> flatGround() {
   return std::make_shared<terrain::HeightMap>();
+}
+
+/// A plane that rises to the east, `rise` per metre, and is 0 at x = -50 m; 100 m by 100 m.
+inline std::shared_ptr<const terrain::HeightMap> risingGround(double rise) {
+  terrain::HeightMapLaw law;
+  law.resolution = 100.0;
+  law.origin = Vec3(-50, -50, 0);
+  law.height_max = 100.0 * rise;
+  terrain::GreyImage image;
+  image.columns = image.rows = 2;
+  image.samples = {0, 255, 0, 255};
+  return std::make_shared<terrain::HeightMap>(law, image);
+}
+
+/// One style of motion, in which people hold both arms to the front.
+inline MotionStyles armsToTheFront() {
+  ChannelAngles angles{};
+  for (int side = 0; side < 2; ++side) angles[indexOf(Channel::SHOULDER, side)] = 0.5 * PI;
+  Clip::Keys keys;
+  keys.fill(angles);
+  return {{"arms to the front", Clip(keys), Clip(keys), Clip(), 4.0}};
 }
 
 /// Makes walls around a rectangle.
@@ -84,8 +106,9 @@ inline Crowd corridor(double width, std::uint64_t seed, const CrowdSettings& set
 }
 
 /// Ten wandering walkers in a room of 10 m.
-inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings) {
-  Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, flatGround());
+inline Crowd crowdedRoom(std::uint64_t seed, const CrowdSettings& settings,
+                         const std::shared_ptr<const terrain::HeightMap>& ground = flatGround()) {
+  Crowd out(seed, settings, {-4.5, 4.5, -4.5, 4.5}, ground);
   out.setObstacles(room(-5, -5, 5, 5));
   for (int i = 0; i < 10; ++i) {
     Spawn spawn;

@@ -15,6 +15,7 @@ constexpr double SHORTEST = 1e-3;    // [m] length of an arrow
 constexpr double RING_WIDTH = 0.02;  // as a part of the radius
 constexpr double LIFT = 0.1;         // [m] over the ground
 constexpr int RING_SIDES = 64;
+const Vec3 DISC_RED(0.86, 0.22, 0.12);  // of wood that moves, in the colours by state
 
 std::uint32_t addVertex(const Vec3& at, const Vec3& colour, grass::GrassMesh& mesh) {
   const auto out = static_cast<std::uint32_t>(mesh.vertexCount());
@@ -107,7 +108,8 @@ std::size_t appendArrows(const wind::Instant& wind, const terrain::HeightMap& gr
 
 void appendTerm(const wind::Term& term, const terrain::HeightMap& ground, const WindStyle& style,
                 grass::GrassMesh& mesh) {
-  const Vec3 colour = colourOfSpeed(term.peak / style.full_speed);
+  const bool is_red = style.red_discs && term.kind == wind::Kind::DISK;
+  const Vec3 colour = is_red ? DISC_RED : colourOfSpeed(term.peak / style.full_speed);
   const Vec3 base(term.centre.x(), term.centre.y(),
                   ground.height(term.centre.x(), term.centre.y()) + LIFT);
   addRing(base, term.radius, std::max(0.1, RING_WIDTH * term.radius), colour, ground, mesh);

@@ -17,6 +17,7 @@ struct WindStyle {
   double height{2.0};       ///< over the ground [m]
   double scale{0.25};       ///< length of an arrow over its speed [s]
   double full_speed{12.0};  ///< speed of the last colour [m/s]
+  bool red_discs{false};    ///< otherwise discs have the colour of their speed, as all shapes
 };
 
 /// Largest number of arrows. The spacing grows so that it is not exceeded.

@@ -24,6 +24,9 @@ WindProperties::WindProperties(rviz::Display& display) {
   shapes_ = addFlag(
       "Shapes", true,
       "Draw each gust, disc, tornado, blast and wake on the ground, with its direction.", display);
+  red_discs_ =
+      addFlag("Red Discs", false,
+              "Discs are red, as the branches that move in the trees' colours by state.", display);
   addRate(display, "Arrows move");
   addScenery(display, "Draw grass, unless another display has a ground.", false);
 }
@@ -45,6 +48,7 @@ WindStyle WindProperties::style() const {
   out.height = static_cast<double>(height_->getFloat());
   out.scale = static_cast<double>(scale_->getFloat());
   out.full_speed = static_cast<double>(full_speed_->getFloat());
+  out.red_discs = red_discs_->getBool();
   return out;
 }
 

@@ -19,7 +19,7 @@ class WindProperties : public SceneryProperties {
 
  private:
   rviz::RosTopicProperty* topic_;
-  rviz::BoolProperty *arrows_, *shapes_;
+  rviz::BoolProperty *arrows_, *shapes_, *red_discs_;
   rviz::FloatProperty *spacing_, *extent_, *height_, *scale_, *full_speed_;
 };
 

@@ -83,6 +83,54 @@ TEST(GrabOfEveryBranch, MovesItAndLetsItReturn) {
   EXPECT_LT(all.left, 1e-9);  // still air: what is procedural stands at rest
 }
 
+/// Largest work of a tick while a twig is pulled in each of some trees.
+struct Work {
+  std::size_t trees{0}, branches{0}, links{0}, refused{0};
+  std::size_t in_the_trees{0};  ///< branches of the trees that are held
+};
+
+Work workOfGrabs(std::uint32_t grabs, const PhysicsSettings& settings) {
+  PhysicsRig rig(settings, 16);
+  rig.forest.setWind(steadyWind(Vec3(3.0, 1.0, 0.0)));
+  Work out;
+  for (std::uint32_t id = 0; id < grabs; ++id) {
+    const Tree tree = growTree(rig.forest.layout(), id, rig.forest.terrain());
+    const Branch& twig = tree.skeleton.branches.back();
+    Grab grab;
+    grab.point = {id, static_cast<int>(tree.skeleton.branches.size()) - 1, twig.length};
+    grab.target = tree.foot + tipOf(twig, twig.rest) + Vec3(0.0, 0.2, 0.0);
+    rig.forest.addGrab(grab);
+    out.in_the_trees += tree.skeleton.branches.size();
+  }
+  rig.run(1.0, [&] {
+    const PhysicsFigures now = rig.forest.physicsFigures();
+    out.trees = std::max(out.trees, now.trees);
+    out.branches = std::max(out.branches, now.branches);
+    out.links = std::max(out.links, now.branches * now.steps);
+    out.refused = std::max(out.refused, now.refused);
+  });
+  return out;
+}
+
+// S1-02: what bounds the time of a tick when 40 twigs of 256 trees are held: links that are
+// evaluated, which are physical branches times steps. grab_bench measures the time of ticks.
+TEST(GrabOfEveryBranch, OfManyTreesLeavesTheWorkOfATickBounded) {
+  constexpr std::size_t GRABS = 40, MOST_STEPS = 5, FEW = 30;  // 240 Hz for ticks of 60 Hz
+  const Work free = workOfGrabs(GRABS, PhysicsSettings());
+  EXPECT_EQ(free.trees, GRABS);
+  EXPECT_GT(free.branches, FEW);
+  EXPECT_LT(free.branches, free.in_the_trees / 2);
+  EXPECT_LE(free.links, MOST_STEPS * free.branches);
+  PhysicsSettings settings;
+  settings.most_branches = FEW;
+  const Work limited = workOfGrabs(GRABS, settings);
+  std::printf("40 grabs: %zu physical branches and %zu links a tick; limited: %zu and %zu\n",
+              free.branches, free.links, limited.branches, limited.links);
+  EXPECT_LE(limited.branches, FEW);
+  EXPECT_LE(limited.links, MOST_STEPS * FEW);
+  EXPECT_GT(limited.refused, 0u);
+}
+
 // S1-02: a ray that starts beside a branch picks it, and the picked branch can be grabbed.
 TEST(GrabOfEveryBranch, FollowsFromPickingIt) {
   PhysicsRig rig;

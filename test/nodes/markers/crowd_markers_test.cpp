@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim {
@@ -55,6 +57,21 @@ TEST(CrowdMarkers, NothingIsDrawnWithoutPeople) {
   crowd::spawnAt(row.crowd, {2.0, 0.0}, {2.0, 1.0});
   EXPECT_EQ(marker().action, visualization_msgs::Marker::ADD);
   EXPECT_EQ(marker().points.size(), 60000u);
+}
+
+// S2-35: a person who looks to the north holds the arms as the style says.
+TEST(CrowdMarkers, BodiesHaveTheirStyles) {
+  Row row(1);
+  const auto reach = [&](const crowd::MotionStyles& styles) {
+    CrowdMarkers markers(row.crowd, 60000, 1.0, styles);
+    markers.build({row.viewer}, 0);
+    double out = 0.0;  // [m] to the north
+    for (const geometry_msgs::Point& point : markers.lists().message("map").markers[0].points)
+      out = std::max(out, point.y);
+    return out;
+  };
+  EXPECT_GT(reach(crowd::armsToTheFront()), 0.55);
+  EXPECT_LT(reach(crowd::ownStyles()), 0.45);
 }
 
 TEST(CrowdMarkers, ShardsHaveListsOfTheirOwn) {

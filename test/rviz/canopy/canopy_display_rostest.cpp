@@ -203,6 +203,22 @@ class CardFolder {
                                 ("card_" + std::to_string(::getpid()))};
 };
 
+/// A cloud of slices above the ground.
+canopy::Layout cloudOf(canopy::CellLook look) {
+  canopy::Layout out = CanopyRig::shrubs(1);
+  canopy::PlantKind& kind = out.kinds[0];
+  kind.shape = canopy::PlantShape::SLICES;
+  kind.look = look;
+  kind.file = "package://vegetation_sim/media/plants/cloud_00.png";
+  kind.height = 4.4;
+  kind.solid = 0.3;
+  out.plants[0].position = Vec3(0.0, 0.0, 5.0);
+  Faults faults;
+  loadForms(out, "", faults);
+  EXPECT_TRUE(faults.empty()) << faults.text();
+  return out;
+}
+
 double shareOfRed(CanopyRig& rig) {
   const std::vector<std::uint8_t> pixels = rig.picture();
   double out = 0.0;
@@ -232,6 +248,29 @@ TEST_F(CanopyDisplayTest, MeshesHaveTheirTextures) {
     const std::string text = statusOf(*display, "Textures");
     return text.find("texture 'leaf.png' is no picture of a known format") != std::string::npos;
   })) << statusOf(*display, "Textures");
+}
+
+// S3-W6: cells of slices are drawn as leaves or as puffs. The camera is below the cloud.
+TEST_F(CanopyDisplayTest, SlicesLookLikeLeavesOrPuffs) {
+  rig.lookAt(7.f, -0.4, 12.0);
+  setTolerance(0.0);  // no pictures of layers
+  std::vector<std::vector<std::uint8_t>> seen;
+  for (const canopy::CellLook look : {canopy::CellLook::LEAVES, canopy::CellLook::PUFFS}) {
+    rig.plant(4);  // other plants, so that the cloud is known to be the new one
+    ASSERT_TRUE(rig.until([&] { return display->drawn().plants == 4; }));
+    if (seen.empty()) seen.push_back(steadyPicture(rig));
+    rig.plant(cloudOf(look));
+    rig.blow(1);
+    ASSERT_TRUE(
+        rig.until([&] { return display->drawn().plants == 1 && display->drawn().drawn > 0; }));
+    seen.push_back(steadyPicture(rig));
+  }
+  const double leaves = difference(seen[0], seen[1]), puffs = difference(seen[0], seen[2]);
+  const double change = difference(seen[1], seen[2]);
+  std::cout << "mean change by leaves " << leaves << ", by puffs " << puffs << ", between them "
+            << change << " of 255\n";
+  EXPECT_GT(puffs, 1.0);
+  EXPECT_GT(change, 1.0);
 }
 
 // S3-01, S3-30: the leaves of each plant appear in front of a sky, on grass.

@@ -12,6 +12,7 @@
 #include "rviz/crowd/crowd_display.h"
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
+#include "scenes/crowd/crowd_scenes.h"
 
 namespace vegetation_sim {
 namespace {
@@ -233,6 +234,18 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
   const std::vector<std::uint8_t> before = rig.picture();
   rig.walk(1.0);
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
+}
+
+// S2-35: people who stand hold their arms as the styles of the node say.
+TEST_F(CrowdDisplayTest, BodiesHaveTheStylesOfTheNode) {
+  const std::vector<std::uint8_t> own = steadyPicture(rig);
+  const ros::Publisher styles = rig.nodeHandle().advertise<CrowdMotions>("agents/motions", 1, true);
+  styles.publish(toMsg(crowd::armsToTheFront()));
+  ASSERT_TRUE(rig.until([&] { return statusOf(*display, "Styles") == "1 styles"; }))
+      << statusOf(*display, "Styles");
+  const double change = difference(own, steadyPicture(rig));
+  std::cout << "mean change by the style: " << change << " of 255\n";
+  EXPECT_GT(change, 0.2);
 }
 
 // A display reads the full people only while nobody publishes the rounded ones; both look alike.

@@ -9,6 +9,7 @@
 
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
+#include "tree/mesh/mesh.h"
 
 namespace vegetation_sim {
 namespace {
@@ -407,6 +408,98 @@ TEST_F(ForestDisplayTest, ShowsLevelsOfMotionAndTheGovernorsChoice) {
   const std::string missed = "Not heard for 5 s; last: " + published;
   EXPECT_TRUE(rig.until([&] { return statusOf(*display, "Governor") == missed; }))
       << statusOf(*display, "Governor");
+}
+
+forest::Layout oneOak() {
+  forest::Layout out;
+  out.species = {forest::shippedSpecies("oak")};
+  out.trees.resize(1);
+  return out;
+}
+
+// S1-13: as TreeLevels BoughsSaveTrianglesOfNearTrees, for the same oak at the same size.
+// Afterwards the display raises the sizes until the target is met again.
+TEST_F(ForestDisplayTest, BoughsSaveTrianglesOfANearTree) {
+  const forest::Layout oak = oneOak();
+  const forest::Skeleton skeleton = forest::grow(oak.trees.front(), oak.species.front());
+  const std::size_t whole = forest::buildMesh(skeleton, oak.species.front(),
+                                              forest::meshDetail(forest::GEOMETRY_LEVELS - 1))
+                                .triangleCount();
+  rig.panel().resize(480, 207);  // 250 pixels a radian
+  rig.lookAt(static_cast<float>(0.5 * skeleton.height), 0.0, 8.0);
+  rig.manager().getViewManager()->getCurrent()->subProp("Yaw")->setValue(0.0);
+  rig.frames(3);
+  rig.remove(display);  // A new one begins with sizes as they are.
+  rig.publishForest(oak);
+  display = rig.addDisplay();
+  ASSERT_NE(display, nullptr);
+  display->subProp("Triangles")->setValue(static_cast<int>(whole));
+  const auto becomes = [&](bool by_bough, const std::function<bool(std::size_t)>& fits) {
+    display->subProp("Detail by Boughs")->setValue(by_bough);
+    EXPECT_TRUE(rig.until([&] {
+      const view::ForestReport drawn = display->drawn();
+      return drawn.trees == 1 && drawn.waiting == 0 && fits(drawn.triangles);
+    })) << display->drawn().triangles
+        << " triangles of " << whole << (by_bough ? " by bough" : "");
+  };
+  const auto is_whole = [&](std::size_t triangles) { return triangles == whole; };
+  const auto is_less = [&](std::size_t triangles) {
+    return triangles > 0 && 1.3 * static_cast<double>(triangles) < static_cast<double>(whole);
+  };
+  becomes(false, is_whole);
+  rig.frames(10);
+  EXPECT_EQ(display->drawn().triangles, whole);
+  becomes(true, is_less);
+  becomes(false, is_whole);
+  rig.panel().resize(480, 360);
+  rig.frames(2);
+}
+
+/// Shares of pixels with the colours of wood that moves and of wood that is held.
+struct StateColours {
+  double red{0.0}, yellow{0.0};
+};
+
+StateColours stateColours(ViewRig& rig) {
+  const std::vector<std::uint8_t> pixels = rig.picture();
+  const double count = static_cast<double>(pixels.size()) / 3.0;
+  StateColours out;
+  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
+    const double r = pixels[i], g = pixels[i + 1], b = pixels[i + 2];
+    out.red += r > 50.0 && r > 1.8 * g && r > 1.8 * b ? 1.0 / count : 0.0;
+    out.yellow += r > 50.0 && g > 0.65 * r && r > 3.0 * b ? 1.0 / count : 0.0;
+  }
+  return out;
+}
+
+// P1, figures of states: what moves is red and what a grab holds is yellow, here the trunk. Wood at
+// rest has the colour of bark.
+TEST_F(ForestDisplayTest, ColoursByStateShowWhatMovesAndWhatIsHeld) {
+  constexpr double NONE = 0.002;
+  const ros::Publisher grabs = rig.nodeHandle().advertise<GrabStatuses>("forest/grabs", 1, true);
+  rig.publishForest(oneOak());
+  display->subProp("Leaves")->setValue(false);
+  display->subProp("Ground")->setValue(false);
+  rig.lookAt(2.5f, 0.1, 7.0);
+  ASSERT_TRUE(
+      rig.until([&] { return display->drawn().trees == 1 && display->drawn().waiting == 0; }));
+  steadyPicture(rig);
+  const StateColours natural = stateColours(rig);
+  EXPECT_LT(natural.red, NONE);
+  EXPECT_LT(natural.yellow, NONE);
+  display->subProp("Colours")->setValue("by state");
+  EXPECT_TRUE(advanceUntil([&] { return stateColours(rig).red > 0.01; })) << stateColours(rig).red;
+  EXPECT_LT(stateColours(rig).yellow, NONE);
+  GrabStatuses held;
+  held.held.resize(1);  // the trunk of the only tree
+  grabs.publish(held);
+  EXPECT_TRUE(advanceUntil([&] { return stateColours(rig).yellow > 0.005; }))
+      << stateColours(rig).yellow;
+  EXPECT_GT(stateColours(rig).red, NONE);
+  grabs.publish(GrabStatuses());
+  EXPECT_TRUE(advanceUntil([&] { return stateColours(rig).yellow < NONE; }));
+  rig.publishState(rig.now(), 0);
+  EXPECT_TRUE(advanceUntil([&] { return stateColours(rig).red < NONE; })) << stateColours(rig).red;
 }
 
 TEST_F(ForestDisplayTest, EveryPropertyCanBeChanged) {

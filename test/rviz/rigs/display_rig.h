@@ -39,12 +39,12 @@ class DisplayRig : public ViewRig {
   void publish(const ForestLayout& message) { layout_.publish(message); }
   void publish(const WindField& message) { wind_.publish(message); }
   void publish(const ForestState& message) { state_.publish(message); }
-  /// Returns a state with all trees at the finest level.
+  /// Publishes a state with all trees at a level of motion, by default the finest.
   void publishState() { publishState(now()); }
-  void publishState(double stamp) {
+  void publishState(double stamp, int level = forest::MAX_DEPTHS) {
     forest::StateUpdate update;
     update.stamp = fromSeconds(stamp);
-    update.base = forest::LevelState::settled(forest::MAX_DEPTHS);
+    update.base = forest::LevelState::settled(level);
     update.layout_hash = hash_;
     update.wind_hash = wind_field_.hash();
     ForestState message = toMsg(update);

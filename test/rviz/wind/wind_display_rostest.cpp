@@ -1,5 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -73,6 +74,28 @@ TEST_F(WindDisplayTest, DrawsArrowsAndShapes) {
   ASSERT_TRUE(rig.until([&] { return display->drawn().arrows + display->drawn().shapes == 0; }));
   rig.frames(2);
   EXPECT_GT(difference(with, rig.picture()), 1.0);
+}
+
+double shareOfRed(WindRig& rig) {
+  const std::vector<std::uint8_t> pixels = rig.picture();
+  double out = 0.0;
+  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
+    const int red = pixels[i], other = std::max(pixels[i + 1], pixels[i + 2]);
+    out += red > 100 && 2 * red > 5 * other ? 1.0 : 0.0;
+  }
+  return 3.0 * out / static_cast<double>(pixels.size());
+}
+
+// P1, figure 4: the disc is red if that is asked for, and otherwise has the colour of its speed.
+TEST_F(WindDisplayTest, DiscsAreRedByAProperty) {
+  display->subProp("Arrows")->setValue(false);
+  ASSERT_TRUE(rig.until([&] { return display->drawn().arrows == 0; }));
+  rig.frames(2);
+  EXPECT_LT(shareOfRed(rig), 0.0005);
+  display->subProp("Red Discs")->setValue(true);
+  EXPECT_TRUE(rig.until([&] { return shareOfRed(rig) > 0.002; })) << shareOfRed(rig);
+  display->subProp("Red Discs")->setValue(false);
+  EXPECT_TRUE(rig.until([&] { return shareOfRed(rig) < 0.0005; })) << shareOfRed(rig);
 }
 
 TEST_F(WindDisplayTest, MovesWithTheClockAlone) {
