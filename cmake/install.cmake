@@ -13,6 +13,7 @@ install(DIRECTORY config examples icons launch media rviz DESTINATION ${CATKIN_P
 install(PROGRAMS scripts/charts/charts scripts/diff_drive_robot.py
   scripts/ground_truth_frame.py
   scripts/rolling_stone.py scripts/scene_snapshot.py scripts/scripted_drive.py scripts/scripted_gripper.py scripts/scripted_mower.py
+  scripts/step_clock.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/charts/charting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
   PATTERN __pycache__ EXCLUDE)

@@ -165,12 +165,13 @@ void Forest::chooseDetail(Nanoseconds before) {
   world_chooser_.choose(context, worldDemand(settings, bodies), physical, start, snapshot_.world);
   start.compute = !world_chooser_.hasComputed();
   start.known = &snapshot_.world.modes;
-  sensor_chooser_.choose(context, sensorDemand(settings, bodies, snapshot_.sensors), physical,
-                         start, snapshot_.sensed.trees);
+  DetailDemand sensors = sensorDemand(settings, bodies, snapshot_.sensors);
+  DetailDemand viewers = viewDemand(settings, bodies, snapshot_.viewers);
+  sensors.most_changes = viewers.most_changes = changesWithin(before, stamp);
+  sensor_chooser_.choose(context, sensors, physical, start, snapshot_.sensed.trees);
   start.compute = start.compute && !sensor_chooser_.hasComputed();
   start.known = nullptr;
-  view_chooser_.choose(context, viewDemand(settings, bodies, snapshot_.viewers), physical, start,
-                       snapshot_.view.trees);
+  view_chooser_.choose(context, viewers, physical, start, snapshot_.view.trees);
   std::set<ModesWorker::Key> awaited;
   for (const DetailChooser* chooser : {&world_chooser_, &sensor_chooser_, &view_chooser_})
     awaited.insert(chooser->awaited().begin(), chooser->awaited().end());

@@ -30,7 +30,7 @@ void DetailChooser::choose(const PredictionContext& context, const DetailDemand&
   allocate(context.settings, demand, physical_cost);
   figures_.strained = detail.modes.countStrained();
   startModes(context, start, detail);
-  setLevels(context, detail);
+  setLevels(context, demand.most_changes, detail);
   detail.prune(context.stamp, transition);
   if (plants_.size() > MANY_PLANTS) std::vector<Plant>().swap(plants_);
 }
@@ -177,19 +177,44 @@ void DetailChooser::start(const ModalContext& at, const Candidate& candidate, Na
   candidate.plant->chosen = candidate.fine ? FINE_MODAL_TIER : MODAL_LEVEL;
 }
 
-// Trees that are not among the plants return to the base.
-void DetailChooser::setLevels(const PredictionContext& context, TreeDetail& detail) const {
-  const double transition = context.layout.motion.transition;
-  std::vector<std::uint32_t> chosen, held;
+// Modes begin with their level. Trees that are not among the plants, which are in order of their
+// ids, return to the base after all others.
+std::vector<DetailChooser::Change> DetailChooser::listChanges(const TreeDetail& detail) const {
+  constexpr double FIRST = std::numeric_limits<double>::infinity();
+  std::vector<Change> out;
   for (const Plant& plant : plants_) {
-    detail.setLevel(plant.id, std::min(plant.chosen, MODAL_LEVEL), context.stamp, transition);
-    chosen.push_back(plant.id);
+    const int level = std::min(plant.chosen, MODAL_LEVEL);
+    const int last = detail.levels.of(plant.id).level;
+    if (last == level) continue;
+    const auto errorAt = [&](int tier) {
+      return static_cast<double>(plant.error[static_cast<std::size_t>(tier)]);
+    };
+    const double saved = errorAt(last) - errorAt(plant.chosen);
+    out.push_back({plant.id, level, detail.begun.count(plant.id) > 0 ? FIRST : saved});
   }
-  std::sort(chosen.begin(), chosen.end());
-  for (const auto& entry : detail.levels.held()) held.push_back(entry.first);
-  for (const std::uint32_t tree : held)
-    if (!std::binary_search(chosen.begin(), chosen.end(), tree))
-      detail.setLevel(tree, detail.levels.base().level, context.stamp, transition);
+  const int base = detail.levels.base().level;
+  const auto isPlant = [&](std::uint32_t tree) {
+    const auto at = std::lower_bound(plants_.begin(), plants_.end(), tree,
+                                     [](const Plant& a, std::uint32_t id) { return a.id < id; });
+    return at != plants_.end() && at->id == tree;
+  };
+  for (const auto& [tree, state] : detail.levels.held())
+    if (state.level != base && !isPlant(tree)) out.push_back({tree, base, -FIRST});
+  return out;
+}
+
+// Changes beyond the number that is allowed wait for the next ticks.
+void DetailChooser::setLevels(const PredictionContext& context, std::size_t most,
+                              TreeDetail& detail) const {
+  std::vector<Change> changes = listChanges(detail);
+  if (changes.size() > most) {
+    std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
+      return a.saved > b.saved || (a.saved == b.saved && a.tree < b.tree);
+    });
+    changes.resize(most);
+  }
+  for (const Change& change : changes)
+    detail.setLevel(change.tree, change.level, context.stamp, context.layout.motion.transition);
 }
 
 }  // namespace vegetation_sim::forest

@@ -61,7 +61,14 @@ class DetailChooser {
                       const PredictionContext& context, TreeDetail& detail);
   void start(const ModalContext& at, const Candidate& candidate, Nanoseconds stamp,
              const ModalTreeState* like, TreeDetail& detail) const;
-  void setLevels(const PredictionContext& context, TreeDetail& detail) const;
+  /// A tree that is to change its level, and how much error that saves.
+  struct Change {
+    std::uint32_t tree;
+    int level;
+    double saved;
+  };
+  std::vector<Change> listChanges(const TreeDetail& detail) const;
+  void setLevels(const PredictionContext& context, std::size_t most, TreeDetail& detail) const;
 
   std::vector<Plant> plants_;
   GovernorFigures figures_;

@@ -29,6 +29,12 @@ void describe(FieldVisitor& v, Settings& s) {
   describe(v, s.budget);
 }
 
+std::size_t changesWithin(Nanoseconds from, Nanoseconds to) {
+  constexpr double MANY = 1e9;  // more than there can be trees
+  const double changes = to > from ? DELTA_BYTES / ENTRY_BYTES * secondsBetween(from, to) : MANY;
+  return static_cast<std::size_t>(std::clamp(changes, 1.0, MANY));
+}
+
 double DetailDemand::pixelsPerMetre(const Vec3& centre, double reach, double tolerance) const {
   double out = 0.0;
   for (const Viewpoint& eye : eyes) {

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "forest/contact/contact_body.h"
 #include "tree/lod/tree_tiers.h"
+#include "vegetation_sim/core/math/time.h"
 #include "vegetation_sim/tree/state/viewer.h"
 
 namespace vegetation_sim::forest {
@@ -23,6 +26,13 @@ struct Settings {
 };
 void describe(FieldVisitor& visitor, Settings& settings);
 
+/// Budget of the changes of levels that one group of listeners receives [B/s], and what one takes
+/// at most in a message [B].
+constexpr double DELTA_BYTES = 5e6, ENTRY_BYTES = 61.0;
+/// Returns how many trees may change their level for a group of listeners in a tick, at least one,
+/// and any number if no time passes. It depends on stamps and sizes only.
+std::size_t changesWithin(Nanoseconds from, Nanoseconds to);
+
 /// The detail that one group of listeners requires of the trees.
 struct DetailDemand {
   /// A ball in which errors may not exceed a tolerance [m].
@@ -34,6 +44,8 @@ struct DetailDemand {
   std::vector<Place> places;
   int base{0};                  ///< level of the trees that neither eyes nor places require
   bool frame_time_binds{true};  ///< limits the cost of all tiers to Budget::frame_time
+  /// Number of trees whose level may change in this tick; those with more error go first.
+  std::size_t most_changes{std::numeric_limits<std::size_t>::max()};
 
   bool empty() const { return eyes.empty() && places.empty(); }
   /// Returns the pixels that a metre of error in a ball counts as: those of the viewer that sees it

@@ -135,6 +135,8 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::string nameOf(const crowd::Walker& walker) const;
   void addDiagnostics(Status& status) override;
   void addGovernor(Status& status) override;
+  /// Largest effect of the rounding of `agents/view` on limbs [m].
+  double viewError() const;
   std::vector<PredictedError> predictErrors() const override;
 
   // Services.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double BODY_RADIUS = 0.16, FOOT_RADIUS = 0.06;  // of a tread [m]
 constexpr double PUBLISH_EVERY = 0.12;                    // a body's way [m]
-constexpr double VIEW_ROUNDING = 0.00087;                 // half a millimetre on each axis [m]
 constexpr double FAR = 1000.0, ARM = 0.5;                 // of walkers from robots [m]
+constexpr std::size_t MOST_PREDICTED = 64;                // people, in many phases of the gait
 
 }  // namespace
 
@@ -226,10 +226,23 @@ void AgentCrowd::addGovernor(Status& status) {
   status.add("tf budget [frames]", options_.tf_budget);
 }
 
+// The error of a body takes as long as drawing it 25 times, so a large crowd has a sample.
+double AgentCrowd::viewError() const {
+  const std::vector<crowd::Walker>& walkers = crowd_.walkers();
+  const crowd::WalkerRounding rounding = viewRounding(walkers, crowd_.terrain());
+  const double seconds = secondsBetween(0, crowd_.snapshot().stamp);
+  const std::size_t every = walkers.size() / MOST_PREDICTED + 1;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < walkers.size(); i += every)
+    largest = std::max(
+        largest, limbErrorOf(walkers[i], crowd_.terrain(), options_.motions, seconds, rounding));
+  return largest;
+}
+
 std::vector<PredictedError> AgentCrowd::predictErrors() const {
   PredictedError view;
   view.topic = "agents/view";
-  view.metres = VIEW_ROUNDING;
+  view.metres = viewError();
   view.cost = view.wanted = static_cast<double>(view_bytes_);
   view.unit = "B sent";
   return {predictError("agents/markers", markers_.balance(), markers_.balanceTerms()), view};

@@ -16,6 +16,7 @@
 
 #include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd.h"
+#include "crowd/body/limb_error.h"
 #include "crowd/body/motion_style.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
@@ -44,6 +45,9 @@ std::vector<WalkerView> peopleOf(const std::vector<AgentState>& agents);
 /// Rounds walkers, by rising id, on the terrain. What no display needs is left out: radius, goal
 /// and progress.
 CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain);
+/// Returns half a step of each number of toView() of these walkers.
+crowd::WalkerRounding viewRounding(const std::vector<crowd::Walker>& walkers,
+                                   const terrain::HeightMap& terrain);
 /// Reads rounded walkers. @throws InvalidInput with all faults, each with name, value and range.
 std::vector<WalkerView> fromMsg(const CrowdView& message);
 

@@ -74,17 +74,26 @@ void append(const crowd::Walker& w, CrowdView& out) {
              out);
 }
 
+std::vector<double> groundsOf(const std::vector<crowd::Walker>& walkers,
+                              const terrain::HeightMap& terrain) {
+  std::vector<double> out;
+  out.reserve(walkers.size());
+  for (const crowd::Walker& w : walkers) out.push_back(terrain.height(w.position.x, w.position.y));
+  return out;
+}
+
+double groundStepOf(const std::vector<double>& heights) {
+  if (heights.empty()) return VIEW_STEP;
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  return std::max(VIEW_STEP, (*high - *low) / GROUND_STEPS);
+}
+
 void appendGround(const std::vector<crowd::Walker>& walkers, const terrain::HeightMap& terrain,
                   CrowdView& out) {
-  std::vector<double> heights;
-  heights.reserve(walkers.size());
-  for (const crowd::Walker& w : walkers)
-    heights.push_back(terrain.height(w.position.x, w.position.y));
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-  out.ground_step = VIEW_STEP;
+  const std::vector<double> heights = groundsOf(walkers, terrain);
+  out.ground_step = groundStepOf(heights);
   if (heights.empty()) return;
-  out.ground_low = *low;
-  out.ground_step = std::max(VIEW_STEP, (*high - *low) / GROUND_STEPS);
+  out.ground_low = *std::min_element(heights.begin(), heights.end());
   for (const double height : heights)
     out.ground.push_back(stepsOf<std::uint16_t>(height - out.ground_low, out.ground_step));
 }
@@ -207,6 +216,18 @@ CrowdView toView(const std::vector<crowd::Walker>& walkers, const terrain::Heigh
   }
   for (const crowd::Walker& walker : walkers) append(walker, out);
   appendGround(walkers, terrain, out);
+  return out;
+}
+
+crowd::WalkerRounding viewRounding(const std::vector<crowd::Walker>& walkers,
+                                   const terrain::HeightMap& terrain) {
+  crowd::WalkerRounding out;
+  out.place = out.velocity = 0.5 * VIEW_STEP;
+  out.ground = 0.5 * groundStepOf(groundsOf(walkers, terrain));
+  out.heading = PI / FRACTIONS;
+  out.gait = 0.5 / FRACTIONS;
+  out.turn_rate = 0.5 * TURN_STEP;
+  out.height = 0.5 * HEIGHT_STEP;
   return out;
 }
 

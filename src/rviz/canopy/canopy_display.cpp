@@ -59,7 +59,9 @@ void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
     canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);
     canopy_->light(properties_->daylight(), properties_->hazeValues());
   }
-  canopy_->update(*source_, stamp, view, properties_->options());
+  view::CanopyVisual::Options options = properties_->options();
+  options.share = feedback_.update(frameTime(), properties_->frameTime());
+  canopy_->update(*source_, stamp, view, options);
   const std::vector<view::Extent> cut = canopy_->takeCutAreas();
   if (!givesGround(terrain_source_->ground())) return;
   if (ground_)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lod/feedback_budget.h"
 #include "rviz/canopy/canopy_properties.h"
 #include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
@@ -47,6 +48,7 @@ class CanopyDisplay : public SceneryDisplay {
   std::unique_ptr<view::CanopyVisual> canopy_;
   std::unique_ptr<view::GroundVisual> ground_;
   Vec3 to_sun_{Vec3::Zero()};  // for which leaves are lit
+  FeedbackBudget feedback_;    // of leaves
   int layouts_{0};
 };
 

@@ -23,6 +23,7 @@ CanopyProperties::CanopyProperties(rviz::Display& display) {
       SLOT(updateLook()), &display);
   most_leaves_->setMin(100);
   most_leaves_->setMax(2000000);
+  addFrameTime(display, "leaves");
   tolerance_ =
       addNumber("Tolerance", 7.f, "Leaves shorter than this become fewer and larger [pixel].", 0.1f,
                 1000.f, display);

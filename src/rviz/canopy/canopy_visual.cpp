@@ -215,10 +215,11 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
                           const Options& options) {
   const bool swayed = report_.crowns > 0 && stamp != stamp_;
   const bool fades = images_ && images_->isBusy();
-  if (!swayed && !fades && changes_ == canopy.changes() &&
+  if (!swayed && !fades && changes_ == canopy.changes() && share_ == options.share &&
       length(eye_ - view.eye.position) < STILL && length(forward_ - view.forward) < STILL)
     return;
   changes_ = canopy.changes();
+  share_ = options.share;
   stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
@@ -228,8 +229,8 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
   const std::vector<CanopyPatch*> seen = inPicture(view, foliage.anyBent());
   double wanted = 0.0;
   for (const CanopyPatch* patch : seen) wanted += wantedOf(*patch, view, options.tolerance);
-  const double share =
-      std::min(1.0, static_cast<double>(options.most_leaves) / std::max(1.0, wanted));
+  const double share = options.share * std::min(1.0, static_cast<double>(options.most_leaves) /
+                                                         std::max(1.0, wanted));
   report_.drawn = 0;
   int rank = 0;
   for (CanopyPatch* patch : seen) {

@@ -32,6 +32,7 @@ class CanopyVisual {
  public:
   struct Options {
     std::size_t most_leaves{40000};
+    double share{1.0};     ///< of the leaves that would be drawn
     float tolerance{7.f};  ///< smaller leaves become fewer and larger [pixel]
     LayerImages::Options pictures;
   };
@@ -87,6 +88,7 @@ class CanopyVisual {
   int changes_{-1};
   Nanoseconds stamp_{0};
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
+  double share_{1.0};  // of the last update
   CanopyReport report_;
 };
 

@@ -15,6 +15,8 @@ constexpr double GROUND_CELL = 3.0;  // [m] of the ground mesh
 // Radius of the contact shadow of a trunk: that of the trunk times a factor and some room [m].
 constexpr double TRUNK_SHADOW = 2.2, TRUNK_ROOM = 0.12;
 constexpr double TRUNK_DARK = 0.65;  // strength of it
+constexpr double LEAST_TRIANGLES = 1000.0;
+constexpr double LONGEST_WAIT = 3.0;  // [s] for trees that fade to other levels
 
 std::string describeTrees(const view::ForestReport& report) {
   std::string out = std::to_string(report.trees) + " of " + std::to_string(report.wanted) +
@@ -109,6 +111,8 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   }
   view::ForestVisual::Options options = properties_->options();
   options.held = held_;
+  options.target_triangles =
+      std::max(LEAST_TRIANGLES, shareOfTriangles() * options.target_triangles);
   forest_->update(source_->replica(), stamp, wall(), view, properties_->daylight(), options);
   if (forest_->treeSet() == nullptr) return;
   shareLight();
@@ -117,6 +121,19 @@ void ForestDisplay::draw(Nanoseconds stamp, const view::View& view) {
   const bool gives = givesGround(source_->replica().terrain());
   if (gives) makeGround();
   if (!gives || properties_->movesShadows()) updateShadows(stamp, view);
+}
+
+// Trees fade to a new share, and then its effect is measured. While the viewer moves some always
+// fade, so this wait has an end.
+double ForestDisplay::shareOfTriangles() {
+  const double target = properties_->frameTime();
+  const view::ForestReport& report = forest_->report();
+  const bool fades = report.fading + report.waiting > 0;
+  if (target > 0.0 && fades && wall() < share_changed_ + LONGEST_WAIT) return feedback_.share();
+  const double before = feedback_.share();
+  const double share = feedback_.update(frameTime(), target);
+  if (share != before) share_changed_ = wall();
+  return share;
 }
 
 // The ground of this display has shadows at rest unless they move.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lod/feedback_budget.h"
 #include "ros/replicas/subscribed_forest.h"
 #include "rviz/forest/forest_properties.h"
 #include "rviz/forest/forest_visual.h"
@@ -47,6 +48,7 @@ class ForestDisplay : public SceneryDisplay {
   void updateTrees();
 
  private:
+  double shareOfTriangles();
   void makeGround();
   void makeShadows();
   void makeContacts();
@@ -65,6 +67,8 @@ class ForestDisplay : public SceneryDisplay {
   std::unique_ptr<view::SharedLight> shared_light_;
   int lit_{-1};  // tree set whose light is shared
   int layouts_{0};
+  FeedbackBudget feedback_;                     // of triangles
+  double share_changed_{-1e9};                  // wall time [s]
   std::unique_ptr<view::BlobVisual> contacts_;  // around trunks
   // Tree sets for which ground, shadows and contact shadows were made.
   int grounded_{-1}, shaded_{-1}, contacted_{-1};

@@ -33,6 +33,7 @@ void ForestProperties::addLook(rviz::Display& display) {
       "Target number of triangles of trees in the picture. Levels of detail follow.", &display);
   triangles_->setMin(1000);
   triangles_->setMax(20000000);
+  addFrameTime(display, "triangles");
   most_trees_ =
       new rviz::IntProperty("Most Trees", 1000, "Number of trees that are drawn, nearest first.",
                             &display, SLOT(updateTrees()), &display);

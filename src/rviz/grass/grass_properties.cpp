@@ -37,9 +37,7 @@ void GrassProperties::addLook(rviz::Display& display) {
       &display, SLOT(updateLook()), &display);
   most_blades_->setMin(1000);
   most_blades_->setMax(2000000);
-  frame_time_ = addNumber("Frame Time", 0.f,
-                          "Draw fewer blades while frames take longer than this [ms]; 0: never.",
-                          0.f, 1000.f, display);
+  addFrameTime(display, "blades");
   blades_ = addFlag("Single Blades", true, "Draw single blades near the viewer.", display);
   strips_ = addFlag("Strips", true, "Draw strips and layers farther away.", display);
   edge_strips_ = addFlag("Strips on Edges", false,
@@ -66,10 +64,6 @@ SubscribedMeadow::Topics GrassProperties::topics() const {
   const std::string state = state_->getTopicStd();
   const std::string near = state.substr(0, state.rfind('/') + 1) + "near";
   return {layout_->getTopicStd(), wind_->getTopicStd(), state, colours_->getTopicStd(), near};
-}
-
-double GrassProperties::frameTime() const {
-  return 1e-3 * static_cast<double>(frame_time_->getFloat());
 }
 
 GrassVisual::Options GrassProperties::options() const {

@@ -22,8 +22,6 @@ class GrassProperties : public SceneryProperties {
 
   SubscribedMeadow::Topics topics() const;
   GrassVisual::Options options() const;
-  /// Target of the time between two frames [s]; 0: none.
-  double frameTime() const;
 
  private:
   void addTopics(rviz::Display& display);
@@ -33,7 +31,7 @@ class GrassProperties : public SceneryProperties {
   rviz::RosTopicProperty *layout_, *wind_, *state_, *colours_;
   rviz::IntProperty* most_blades_;
   rviz::BoolProperty *blades_, *strips_, *edge_strips_, *colour_by_level_;
-  rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_, *frame_time_;
+  rviz::FloatProperty *tolerance_, *farthest_, *transition_, *variety_;
 };
 
 }  // namespace vegetation_sim::view

@@ -87,6 +87,12 @@ void SceneryProperties::addRate(rviz::Display& display, const std::string& who) 
   rate_->setMax(120.f);
 }
 
+void SceneryProperties::addFrameTime(rviz::Display& display, const std::string& what) {
+  const std::string help =
+      "Draw fewer " + what + " while frames take longer than this [ms]; 0: never.";
+  frame_time_ = addNumber("Frame Time", 0.f, help.c_str(), 0.f, 1000.f, display);
+}
+
 bool SceneryProperties::ground() const {
   return ground_->getBool();
 }
@@ -104,6 +110,9 @@ bool SceneryProperties::publishesViewer() const {
 }
 double SceneryProperties::updatePeriod() const {
   return 1.0 / static_cast<double>(rate_->getFloat());
+}
+double SceneryProperties::frameTime() const {
+  return frame_time_ != nullptr ? 1e-3 * static_cast<double>(frame_time_->getFloat()) : 0.0;
 }
 std::string SceneryProperties::viewerTopic() const {
   return viewer_topic_->getStdString();

@@ -34,12 +34,16 @@ class SceneryProperties {
   /// Returns the factor of the ground's colours.
   Rgba groundTint() const;
   double updatePeriod() const;  ///< [s]
+  /// Returns the target of the time between two frames [s]; 0: none.
+  double frameTime() const;
 
  protected:
   /// @param display must be a SceneryDisplay. @param on default of the switches.
   void addScenery(rviz::Display& display, const char* ground_help, bool on = true);
   /// @param who name of what moves, for the help texts.
   void addRate(rviz::Display& display, const std::string& who);
+  /// @param what name of what becomes fewer while frames take too long.
+  void addFrameTime(rviz::Display& display, const std::string& what);
 
   template <class Message>
   static rviz::RosTopicProperty* addTopic(const char* name, const char* value, const char* help,
@@ -60,6 +64,7 @@ class SceneryProperties {
   rviz::BoolProperty *ground_, *robot_shadows_, *sky_, *haze_, *publish_viewer_;
   rviz::ColorProperty *ground_colour_, *haze_colour_;
   rviz::FloatProperty *azimuth_, *elevation_, *haze_start_, *haze_end_, *haze_most_, *rate_;
+  rviz::FloatProperty* frame_time_{nullptr};  // null without addFrameTime()
   rviz::StringProperty* viewer_topic_;
 };
 

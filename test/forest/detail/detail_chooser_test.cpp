@@ -85,5 +85,57 @@ TEST(DetailChooser, RequestsEndWithTheirPurpose) {
   EXPECT_FALSE(scene.forest.world().request.has_value());
 }
 
+double meanDistance(const std::vector<StateUpdate::Entry>& trees, const Layout& layout,
+                    const Vec3& from) {
+  double sum = 0.0;
+  for (const StateUpdate::Entry& entry : trees)
+    sum += length(layout.trees[entry.tree].position - from);
+  return sum / static_cast<double>(trees.size());
+}
+
+// N7: in each tick the levels that change for sensors and for displays keep to their bytes; those
+// with the largest errors, near a viewer, come first, and in the end all have come.
+TEST(DetailChooser, LevelsOfListenersChangeWithinTheirBytes) {
+  constexpr int RATE = 240, TICKS = 12;
+  Settings settings;
+  settings.tolerance = 0.02;
+  settings.budget.modal_trees = 0;
+  settings.budget.frame_time = 1e6;
+  Forest forest(gridLayout(40, 6.0), flatTerrain(), settings);
+  forest.setWind(breeze());
+  const TickGrid grid(RATE);
+  std::int64_t tick = grid.tickAt(PHYSICS_START);
+  forest.advance(grid.timeOf(tick));
+  forest.update(true);
+  forest.updateView(true);
+  Viewpoint eye;  // sees all round, from a corner
+  eye.position = Vec3(-5.0, -5.0, 3.0);
+  forest.setViewers({eye});
+  // Stamps of ticks are rounded.
+  const auto most = static_cast<std::size_t>(DELTA_BYTES / ENTRY_BYTES / RATE) + 1;
+  std::vector<std::vector<StateUpdate::Entry>> sensed, seen;
+  std::size_t of_sensors = 0, of_displays = 0;
+  for (int i = 0; i < TICKS; ++i) {
+    const Nanoseconds stamp = grid.timeOf(++tick);
+    forest.setSensor({"lidar", eye.position, 1000.0, 1e-3, stamp});
+    forest.advance(stamp);
+    sensed.push_back(forest.update(false).trees);
+    seen.push_back(forest.updateView(false).trees);
+    EXPECT_LE(sensed.back().size(), most) << i;
+    EXPECT_LE(seen.back().size(), most) << i;
+    of_sensors += sensed.back().size();
+    of_displays += seen.back().size();
+  }
+  EXPECT_GT(of_sensors, 2 * most);
+  EXPECT_GT(of_displays, 3 * most);
+  EXPECT_LT(sensed.back().size(), most / 10);
+  EXPECT_LT(seen.back().size(), most / 10);
+  for (const Plant& plant : forest.sensorChoice().plants())
+    EXPECT_EQ(forest.sensed().levels.of(plant.id).level, plant.chosen) << plant.id;
+  const Layout& layout = forest.layout();
+  EXPECT_LT(meanDistance(seen[0], layout, eye.position),
+            meanDistance(seen[2], layout, eye.position));
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""People on a slope (S2-30, S2-34, S2-36, S2-37): their steps press the grass there and nowhere
+"""People on a slope (S2-30, S2-34, S2-36, S2-37, N9): their steps press the grass there and nowhere
 else, at the height of the ground, and slope and grass slow them down until it is trodden."""
 import math
 import unittest
@@ -83,6 +83,7 @@ class RampWalkers(unittest.TestCase):
         cls.body, cls.feet = cls.ramps
         nodes = cls.body.nodes + cls.feet.nodes
         clock.run(1 + WALK * RATE, *nodes)
+        cls.errors = cls.body.crowd.predicted_errors('/body/agents/errors')
         for ramp in cls.ramps:
             follower = AgentSpawn(position=at(8, -18), heading=0.5 * math.pi, has_goal=True, goal=at(8, 40))
             ramp.spawned = ramp.crowd.spawn(like=follower, count=1)
@@ -101,6 +102,10 @@ class RampWalkers(unittest.TestCase):
             places += [t.position for t in ramp.treads()]
             places += [t.start for t in ramp.treads() if t.action == TreadEvent.STROKE]
             self.assertLess(max(abs(p.z - RISE * p.x) for p in places), 1e-6)
+
+    def test_errors_of_the_view_are_those_of_limbs(self):  # N9
+        """The rounding moves a point by up to 0.87 mm, a limb on the slope farther."""
+        self.assertTrue(0.001 < self.errors['agents/view'].metres < 0.03, self.errors['agents/view'])
 
     def test_a_body_presses_its_track_and_nothing_else(self):
         self.expect_pressed(self.body, 0.9 * FULL)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <string>
@@ -12,7 +13,7 @@
 #include <vector>
 
 #include "core/error_text.h"
-#include "crowd/body/body_skeleton.h"
+#include "crowd/body/limb_error.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -116,6 +117,71 @@ TEST(CrowdConversionsView, BodiesOfAViewAreThoseOfTheWalkersWithinACentimetre) {
   RecordProperty("mean_um", static_cast<int>(1e6 * sum / ends));
   EXPECT_LT(worst, 0.01);
   EXPECT_LT(sum / ends, 0.001);
+}
+
+/// Returns a body as displays draw it: all of it as high above the ground as the message says.
+crowd::Skeleton drawnBody(const crowd::Walker& walker, double ground, const Strollers& s) {
+  const terrain::HeightMap& terrain = s.crowd.terrain();
+  crowd::Skeleton out = skeletonOf(walker, terrain, crowd::ownStyles(), secondsBetween(0, s.now));
+  const double rise = ground - terrain.height(walker.position.x, walker.position.y);
+  for (crowd::Limb& limb : out) {
+    limb.from.z() += rise;
+    limb.to.z() += rise;
+  }
+  return out;
+}
+
+double largestDifference(const crowd::Skeleton& a, const crowd::Skeleton& b) {
+  double out = 0.0;
+  for (std::size_t k = 0; k < crowd::PARTS; ++k)
+    out = std::max({out, length(a[k].from - b[k].from), length(a[k].to - b[k].to)});
+  return out;
+}
+
+// N9: on a slope the prediction is an upper estimate of each body's error, and no more than some
+// times larger: errors of a dozen numbers seldom all add up.
+TEST(CrowdConversionsView, ErrorsOfBodiesArePredicted) {
+  Strollers s;
+  double measured = 0.0, predicted = 0.0;
+  for (int tick = 0; tick < 120; ++tick) {
+    s.step();
+    if (tick % 4 > 0) continue;
+    const std::vector<crowd::Walker>& walkers = s.crowd.walkers();
+    const std::vector<WalkerView> view = s.view();
+    const crowd::WalkerRounding rounding = viewRounding(walkers, s.crowd.terrain());
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      const crowd::Walker& w = walkers[i];
+      const double ground = s.crowd.terrain().height(w.position.x, w.position.y);
+      const double error =
+          largestDifference(drawnBody(w, ground, s), drawnBody(view[i].walker, view[i].ground, s));
+      const double bound =
+          limbErrorOf(w, s.crowd.terrain(), crowd::ownStyles(), secondsBetween(0, s.now), rounding);
+      EXPECT_LE(error, bound) << "walker " << w.id << ", tick " << tick;
+      measured += error;
+      predicted += bound;
+    }
+  }
+  std::printf("mean predicted error over mean measured error of bodies: %.2f\n",
+              predicted / measured);
+  EXPECT_GT(predicted, 1.2 * measured);
+  EXPECT_LT(predicted, 6.0 * measured);
+}
+
+// A leg that is nearly straight moves its knee farther than the rounding moves foot and hip.
+TEST(CrowdConversionsView, PredictedErrorsHaveTheLeverageOfLegs) {
+  Strollers s;
+  for (int tick = 0; tick < 30; ++tick) s.step();
+  const auto largest = [&](const crowd::WalkerRounding& rounding) {
+    double out = 0.0;
+    for (const crowd::Walker& w : s.crowd.walkers())
+      out = std::max(out, limbErrorOf(w, s.crowd.terrain(), crowd::ownStyles(), 1.0, rounding));
+    return out;
+  };
+  crowd::WalkerRounding places;
+  EXPECT_EQ(largest(places), 0.0);
+  places.place = 0.5e-3;
+  EXPECT_GT(largest(places), 1.5 * std::sqrt(3.0) * places.place);
+  EXPECT_GT(largest(viewRounding(s.crowd.walkers(), s.crowd.terrain())), largest(places));
 }
 
 // Rounding must not make a standing foot slide while the walker moves on.

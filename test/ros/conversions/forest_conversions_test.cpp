@@ -161,6 +161,16 @@ TEST(ForestMessages, APhysicalBranchHasItsStatedBytes) {
   EXPECT_EQ(44u, 4 * sizeof(double) + sizeof(std::uint32_t) + 8u);
 }
 
+// N7: the budget of changed levels counts with the size of a tree in transition.
+TEST(ForestMessages, AChangedLevelHasItsStatedBytes) {
+  ForestState state;
+  const std::uint32_t none = ros::serialization::serializationLength(state);
+  state.trees.resize(10);
+  for (TreeState& tree : state.trees) tree.blend.resize(forest::LevelState().blend.size());
+  EXPECT_EQ(ros::serialization::serializationLength(state) - none, 10u * 61u);
+  EXPECT_EQ(forest::ENTRY_BYTES, 61.0);
+}
+
 TEST(ForestConversions, ReturnPhysicalBranchesToTheBit) {  // S1-34, S1-37
   forest::StateUpdate update;
   update.blend = 0.7;

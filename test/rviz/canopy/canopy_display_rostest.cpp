@@ -461,6 +461,21 @@ TEST_F(CanopyDisplayTest, KeepsToTheLeaves) {
   })) << display->drawn().drawn;
 }
 
+// N7: frames that take longer than wanted have fewer leaves, whatever takes the time. Their number
+// follows although neither leaves nor viewer move.
+TEST_F(CanopyDisplayTest, DrawsFewerLeavesWhileFramesTakeTooLong) {
+  setTolerance(0.0);
+  display->subProp("Tolerance")->setValue(0.1);  // every leaf
+  const std::size_t all = display->drawn().leaves;
+  const auto leaves = [&] { return display->drawn().drawn; };
+  ASSERT_TRUE(rig.until([&] { return leaves() == all; })) << leaves() << " of " << all;
+  display->subProp("Frame Time")->setValue(1.0);  // less than any frame takes
+  EXPECT_TRUE(rig.until([&] { return leaves() < all / 3; })) << leaves() << " of " << all;
+  EXPECT_GT(leaves(), 0u);
+  display->subProp("Frame Time")->setValue(0.0);
+  EXPECT_TRUE(rig.until([&] { return leaves() == all; })) << leaves() << " of " << all;
+}
+
 TEST_F(CanopyDisplayTest, RejectsInvalidMessagesAndKeepsItsState) {
   CanopyLayout layout = toMsg(CanopyRig::shrubs(2));
   layout.header.frame_id = "map";

@@ -234,6 +234,19 @@ TEST_F(ForestDisplayTest, KeepsToTheTriangles) {
   }
 }
 
+// N7: frames that take longer than wanted have fewer triangles, whatever takes the time.
+TEST_F(ForestDisplayTest, DrawsFewerTrianglesWhileFramesTakeTooLong) {
+  ASSERT_TRUE(drawn());
+  constexpr double TARGET = 60000.0;
+  display->subProp("Triangles")->setValue(static_cast<int>(TARGET));
+  const auto share = [&] { return static_cast<double>(display->drawn().triangles) / TARGET; };
+  ASSERT_TRUE(rig.until([&] { return std::abs(share() - 1.0) < 0.1; }, LONG)) << share();
+  display->subProp("Frame Time")->setValue(1.0);  // less than any frame takes
+  EXPECT_TRUE(rig.until([&] { return share() < 1.0 / 3.0; }, LONG)) << share();
+  display->subProp("Frame Time")->setValue(0.0);
+  EXPECT_TRUE(rig.until([&] { return share() > 2.0 / 3.0; }, LONG)) << share();
+}
+
 // There are more trees than may be drawn. While the camera moves, other trees become the nearest,
 // and none of them is ever without a mesh.
 TEST_F(ForestDisplayTest, OtherTreesTakeTheirPlaceWithoutAGap) {

@@ -227,6 +227,61 @@ TEST(HandOver, FromModesTheMotionIsKeptAtFirst) {
   }
 }
 
+/// RMS of all tips off the procedural motion, over the largest RMS of their ways in it.
+struct Departure {
+  double first{0.0};  ///< in 0.1 s
+  double last{0.0};   ///< in 3 s
+
+  explicit Departure(PhysicsRig rig) {
+    double off = 0.0, amplitude = 0.0;
+    for (int i = 1; i <= 3 * TICK_RATE; ++i) {
+      rig.advance();
+      const auto a = forwardKinematics(rig.tree, rig.procedural(rig.now()));
+      const auto b = forwardKinematics(rig.tree, rig.angles(rig.now()));
+      double size = 0.0;
+      for (std::size_t j = 0; j < a.size(); ++j) {
+        const Branch& branch = rig.branches()[j];
+        off += (tipOf(branch, a[j]) - tipOf(branch, b[j])).squaredNorm();
+        size += (tipOf(branch, a[j]) - tipOf(branch, branch.rest)).squaredNorm();
+      }
+      amplitude = std::max(amplitude, size);
+      if (i == TICK_RATE / 10) first = off / i;
+      last = off / i;
+    }
+    first = std::sqrt(first / amplitude);
+    last = std::sqrt(last / amplitude);
+  }
+};
+
+// N10, E1: a whole tree goes over from the procedural motion to full dynamics without a jump, at
+// any phase of the wind, with the default fade f. The wind swings with w = 2 rad/s, so motion of
+// amplitude A accelerates by w^2 A. The fade takes 10 (t / f)^3 of the compensation of that away at
+// first, which moves the tree by w^2 A t^5 / (2 f^3), 2e-4 A after 0.1 s; without compensation it
+// were w^2 A t^2 / 2, 2e-2 A. After the fade it is off by the dynamic response to the wind, as are
+// its transients: with a lowest frequency of 4 rad/s by 2 (1 / (1 - (w / 4)^2) - 1) A = 0.67 A.
+TEST(HandOver, FromProceduralTheMotionIsKeptAtFirst) {
+  const auto touch = [](PhysicsRig& r) { r.touch(r.twig(), 10.0); };
+  PhysicsRig rig(allOfIt());
+  rig.forest.setWind(steadyWind(Vec3(3, 1, 0)));
+  const double peak = peakRate(rig, 3.5);
+  for (int phase = 0; phase < 5; ++phase) {
+    rig.run(0.37);
+    PhysicsRig physical = rig;
+    const Jump jump = jumpAt(physical, peak, touch);
+    touch(physical);
+    const Departure off(physical);
+    std::printf(
+        "phase %d: %.1e rad, %.1e of peak rate; RMS of all tips off the procedural motion "
+        "%.3f %% of the amplitude in 0.1 s, %.0f %% in 3 s\n",
+        phase, jump.angle, jump.rate, 100.0 * off.first, 100.0 * off.last);
+    EXPECT_LT(jump.angle, LARGEST_JUMP);
+    EXPECT_LT(jump.rate, 0.01);
+    EXPECT_LT(off.first, 0.002);
+    EXPECT_LT(off.last, 0.7);
+    EXPECT_GT(off.last, off.first);  // it does not stay procedural
+  }
+}
+
 /// A branch is pulled aside and released; the blend starts in mid-recoil.
 PhysicsRig recoiling() {
   PhysicsSettings settings;
