@@ -59,7 +59,7 @@ if(TARGET dynamics_test)  # it shares the trees of the benches
   target_sources(dynamics_test PRIVATE bench/trees/test_trees.cpp)
   target_include_directories(dynamics_test PRIVATE bench)
 endif()
-foreach(target grass_test terrain_test)
+foreach(target grass_test sensors_test terrain_test)
   if(TARGET ${target})
     target_link_libraries(${target} PNG::PNG)
   endif()

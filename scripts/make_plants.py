@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes media/plants: a fern as a mesh, and a cushion of leaves and a cloud as slices. It needs
-numpy and Pillow."""
+"""Writes media/plants: a fern as a mesh with a texture, and a cushion of leaves and a cloud as
+slices. It needs numpy and Pillow."""
 import math
 import pathlib
 
@@ -10,62 +10,100 @@ import numpy
 from PIL import Image
 
 FOLDER = pathlib.Path(__file__).absolute().parent.parent / 'media' / 'plants'
-FRONDS, PAIRS = 16, 13  # A frond has PAIRS pairs of leaflets.
+FRONDS, PIECES = 22, 9  # A frond has PIECES pieces on each side of its stalk.
+STALK = 0.1  # part of a frond without leaflets
+COLUMNS, ROWS, FINER = 64, 128, 4  # pixels of the texture, and as many more while it is drawn
+LEAFLETS, SLANT = 15, 0.09  # leaflets of half a frond, and their rise to the tip
 CELLS, SLICES = 40, 20
 CLOUD_CELLS, CLOUD_ROWS, CLOUD_SLICES = 60, 24, 20
 
 
 class Mesh:
-    """Builds the text of an OBJ file with two groups: rigid stems and leaflets."""
+    """Builds the text of an OBJ file with two groups: rigid stalks and fronds of a texture."""
 
     def __init__(self):
-        self.vertices, self.faces = [], {'stem': [], 'leaflet': []}
+        self.vertices, self.faces = [], {'stem': [], 'frond': []}
 
-    def add(self, group, corners, uvs=()):
+    def add(self, group, corners, uvs, normal):
+        """Adds a face. Its corners count from 1."""
         first = len(self.vertices) + 1
-        self.vertices += [(corner, uv) for corner, uv in
-                          zip(corners, list(uvs) + [(0.0, 0.0)] * len(corners))]
+        self.vertices += [(corner, uv, normal) for corner, uv in zip(corners, uvs)]
         self.faces[group] += [(first, first + i, first + i + 1) for i in range(1, len(corners) - 1)]
 
     def text(self):
-        lines = ['v %.4f %.4f %.4f' % tuple(corner) for corner, _ in self.vertices]
-        lines += ['vt %.3f %.3f' % tuple(uv) for _, uv in self.vertices]
+        lines = ['mtllib fern.mtl']
+        lines += ['v %.4f %.4f %.4f' % tuple(corner) for corner, _, _ in self.vertices]
+        lines += ['vt %.3f %.3f' % tuple(uv) for _, uv, _ in self.vertices]
+        lines += ['vn %.3f %.3f %.3f' % tuple(normal) for _, _, normal in self.vertices]
         for group, faces in self.faces.items():
-            lines += ['o ' + group]
-            lines += ['f ' + ' '.join('%d/%d' % (i, i) for i in face) for face in faces]
+            lines += ['o ' + group, 'usemtl ' + group]
+            lines += ['f ' + ' '.join('%d/%d/%d' % (i, i, i) for i in face) for face in faces]
         return '\n'.join(lines) + '\n'
 
 
+def unit(vector):
+    return vector / numpy.linalg.norm(vector)
+
+
 def frond(mesh, around, length, rise):
+    """Adds two halves that meet at the stalk, where the texture has its left edge."""
     out = numpy.array([math.cos(around), math.sin(around), 0.0])
-    side = numpy.array([-out[1], out[0], 0.0])
+    side, up = numpy.array([-out[1], out[0], 0.0]), numpy.array([0.0, 0.0, 1.0])
 
     def at(s):
-        return length * (out * s * (0.35 + 0.65 * s)) + \
-            numpy.array([0.0, 0.0, rise * (1.9 * s - 1.1 * s * s)])
+        return length * (out * s * (0.35 + 0.65 * s)) + rise * (1.9 * s - 1.1 * s * s) * up
 
-    for i in range(4):
-        a, b = at(i / 4.0), at((i + 1) / 4.0)
-        mesh.add('stem', [a - 0.004 * side, a + 0.004 * side, b + 0.003 * side, b - 0.003 * side])
-    for i in range(PAIRS):
-        s = 0.2 + 0.8 * (i + 0.5) / PAIRS
-        foot, along = at(s), at(min(1.0, s + 0.02)) - at(s - 0.02)
-        along = along / numpy.linalg.norm(along)
-        reach = 0.24 * length * math.sin(math.pi * (0.12 + 0.85 * s))
+    def edge(s, way):
+        reach = 0.26 * length * math.sin(math.pi * (0.1 + 0.88 * s)) ** 0.8
+        return at(s) + reach * (way * side - 0.2 * up)
+
+    foot, knee = at(0.0), at(STALK)
+    mesh.add('stem', [foot - 0.004 * side, foot + 0.004 * side, knee + 0.003 * side,
+                      knee - 0.003 * side], [(0.0, 0.0)] * 4, out)
+    shares = [STALK + (1.0 - STALK) * i / PIECES for i in range(PIECES + 1)]
+    for i in range(PIECES):
+        low, high = i / PIECES, (i + 1) / PIECES
         for way in (-1.0, 1.0):
-            tip = foot + reach * (way * side + 0.35 * along) - numpy.array([0.0, 0.0, 0.18 * reach])
-            wide = 0.030 * along
-            middle = 0.45 * foot + 0.55 * tip
-            mesh.add('leaflet', [foot, middle - wide, tip, middle + wide],
-                     [(0.0, 0.0), (0.4, 0.5), (1.0, 1.0), (0.5, 0.6)])
+            normal = unit(0.35 * way * side + 0.3 * out + up)
+            mesh.add('frond', [at(shares[i]), edge(shares[i], way), edge(shares[i + 1], way),
+                               at(shares[i + 1])],
+                     [(0.0, low), (1.0, low), (1.0, high), (0.0, high)], normal)
+
+
+def draw_frond():
+    """Returns half a frond as red, green, blue and alpha: leaflets with lobes beside a stalk."""
+    u = (numpy.arange(COLUMNS * FINER) + 0.5)[None, :] / (COLUMNS * FINER)
+    v = 1.0 - (numpy.arange(ROWS * FINER) + 0.5)[:, None] / (ROWS * FINER)
+    alpha, light = numpy.zeros((v.size, u.size)), numpy.full((v.size, u.size), 0.8)
+    for number in range(LEAFLETS + 2):
+        middle = (number - 1.0) / LEAFLETS + SLANT * u ** 1.4
+        shape = 0.47 / LEAFLETS * numpy.clip(1.02 - u, 0.0, 1.0) ** 0.45
+        lobes = 1.0 - 0.32 * numpy.abs(numpy.sin(7.5 * math.pi * u)) ** 3
+        away = numpy.abs(v - middle) / (shape * lobes)
+        inside = away < 1.0
+        alpha[inside] = 1.0
+        vein = numpy.clip(1.0 - 7.0 * away, 0.0, 1.0)
+        shade = 0.72 + 0.22 * u + 0.3 * vein - 0.16 * away + numpy.where(v > middle, 0.05, 0.0)
+        light[inside] = shade[inside]
+    stalk = (u < 0.035 * (1.15 - v)) & (v <= 1.0)
+    alpha[stalk], light[stalk] = 1.0, 0.85
+    young = numpy.clip(0.25 + 0.5 * v + 0.25 * u, 0.0, 1.0)
+    dark, pale = (0.10, 0.27, 0.06), (0.44, 0.62, 0.20)
+    colours = [light * (a + (b - a) * young) for a, b in zip(dark, pale)]
+    fine = numpy.stack(colours + [alpha], axis=-1)
+    out = fine.reshape(ROWS, FINER, COLUMNS, FINER, 4).mean(axis=(1, 3))
+    return numpy.clip(numpy.rint(255.0 * out), 0.0, 255.0).astype('uint8')
 
 
 def write_fern():
     mesh, random = Mesh(), numpy.random.RandomState(3)
     for i in range(FRONDS):
         around = 2.399963 * i + random.uniform(-0.3, 0.3)
-        frond(mesh, around, random.uniform(0.55, 0.85), random.uniform(0.55, 0.95))
+        frond(mesh, around, random.uniform(0.55, 0.85), random.uniform(0.5, 0.95))
     (FOLDER / 'fern.obj').write_text(mesh.text())
+    (FOLDER / 'fern.mtl').write_text('newmtl stem\nKd 0.28 0.34 0.12\n'
+                                     'newmtl frond\nKd 1 1 1\nmap_Kd fern.png\n')
+    Image.fromarray(draw_frond(), 'RGBA').save(FOLDER / 'fern.png', optimize=True)
 
 
 def write_cushion():

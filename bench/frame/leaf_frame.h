@@ -8,8 +8,8 @@
 
 namespace vegetation_sim::canopy {
 
-/// Leafy masses of a scenario: the plane's air and layers, and images of the layers from which a
-/// graphics card moves the leaves.
+/// Leafy masses of a scenario: the plane's air, and the layers by which displays and sensors move
+/// the leaves.
 class LeafFrame {
  public:
   explicit LeafFrame(const bench::Scene& scene) : canopy_(*scene.canopy) {
@@ -20,8 +20,7 @@ class LeafFrame {
   void frame(bench::Laps& laps) {
     canopy_.advance(next());
     laps.lap("air in leaves");
-    const Foliage& foliage = canopy_.foliage();
-    for (int layer = 0; layer < foliage.layers(); ++layer) sheet_ = foliage.sheet(layer);
+    canopy_.foliage();
     laps.lap("layers of leaves");
   }
 
@@ -31,7 +30,6 @@ class LeafFrame {
   }
 
   Canopy canopy_;
-  std::vector<float> sheet_;
   int frame_{0};
 };
 

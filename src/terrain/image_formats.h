@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "terrain/opacity_mask.h"
 #include "vegetation_sim/terrain/grey_image.h"
 
 namespace vegetation_sim::terrain {
@@ -17,5 +18,8 @@ bool looksLikePgm(const std::string& bytes);
 GreyImage parsePng(const std::string& bytes, const std::string& name);
 /// @throws InvalidInput
 GreyImage parsePgm(const std::string& bytes, const std::string& name);
+
+/// See parseOpacityMask(). @throws InvalidInput
+OpacityMask parsePngOpacity(const std::string& bytes);
 
 }  // namespace vegetation_sim::terrain

@@ -16,6 +16,8 @@
 namespace vegetation_sim::terrain {
 namespace {
 
+constexpr png_byte HALF_ALPHA = 128;  // displays draw a pixel from here on
+
 /// The data that libpng's callbacks use.
 struct Source {
   const std::string& bytes;
@@ -37,6 +39,17 @@ void readBytes(png_structp png, png_bytep to, std::size_t count) {
 }
 
 void onWarning(png_structp, png_const_charp) {}
+
+/// The bytes of an image, row after row.
+struct Raster {
+  std::vector<png_byte> bytes;
+  std::vector<png_bytep> rows;
+
+  Raster(std::size_t row_bytes, int count)
+      : bytes(row_bytes * static_cast<std::size_t>(count)), rows(static_cast<std::size_t>(count)) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = bytes.data() + i * row_bytes;
+  }
+};
 
 /// Owns libpng's two structures.
 class PngFile {
@@ -61,11 +74,28 @@ class PngFile {
   int rows() const { return static_cast<int>(png_get_image_height(png_, info_)); }
   int bits() const { return png_get_bit_depth(png_, info_); }
 
-  /// @param rows has one pointer per row, each to columns() samples of one byte, or two if bits()
-  /// is 16.
+  bool hasAlpha() const {
+    return (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) != 0 ||
+           png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+  }
+
+  /// Asks for samples of one byte, or of two if bits() is 16.
+  void unpack() { png_set_packing(png_); }
+  /// Asks for pixels of rowBytes() / columns() samples of one byte, the last of which is alpha.
+  /// Requires hasAlpha().
+  bool expand() {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_expand(png_);
+    png_set_strip_16(png_);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    return true;
+  }
+  std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
+
+  /// @param rows has one pointer per row, each to what unpack() or expand() asked for.
   bool readRows(png_bytep* rows) {
     if (setjmp(png_jmpbuf(png_))) return false;
-    png_set_packing(png_);
     png_read_image(png_, rows);
     png_read_end(png_, nullptr);
     return true;
@@ -101,15 +131,39 @@ GreyImage parsePng(const std::string& bytes, const std::string& name) {
   out.white = static_cast<std::uint16_t>((1u << png.bits()) - 1);
   const std::size_t sample_bytes = png.bits() == 16 ? 2 : 1;
   const std::size_t row_bytes = static_cast<std::size_t>(out.columns) * sample_bytes;
-  std::vector<png_byte> raw(row_bytes * static_cast<std::size_t>(out.rows));
-  std::vector<png_bytep> rows(static_cast<std::size_t>(out.rows));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = raw.data() + i * row_bytes;
-  if (!png.readRows(rows.data())) throw InvalidInput(name + ": PNG image: " + source.problem);
+  Raster raster(row_bytes, out.rows);
+  png.unpack();
+  if (!png.readRows(raster.rows.data()))
+    throw InvalidInput(name + ": PNG image: " + source.problem);
 
+  const std::vector<png_byte>& raw = raster.bytes;
   out.samples.resize(raw.size() / sample_bytes);
   for (std::size_t i = 0; i < out.samples.size(); ++i)
     out.samples[i] =
         sample_bytes == 1 ? raw[i] : static_cast<std::uint16_t>(raw[2 * i] << 8 | raw[2 * i + 1]);
+  return out;
+}
+
+OpacityMask parsePngOpacity(const std::string& bytes) {
+  Source source{bytes};
+  PngFile png(source);
+  if (!png.readHeader()) throw InvalidInput("is damaged");
+  OpacityMask out;
+  if (!png.hasAlpha()) return out;
+  if (std::max(png.columns(), png.rows()) > LONGEST_MASK_SIDE)
+    throw InvalidInput("has " + std::to_string(png.columns()) + " x " + std::to_string(png.rows()) +
+                       " pixels, allowed are " + std::to_string(LONGEST_MASK_SIDE) + " x " +
+                       std::to_string(LONGEST_MASK_SIDE));
+  if (!png.expand()) throw InvalidInput("is damaged");
+  Raster raster(png.rowBytes(), png.rows());
+  if (!png.readRows(raster.rows.data())) throw InvalidInput("is damaged");
+
+  out.columns = png.columns();
+  out.rows = png.rows();
+  const std::size_t samples = png.rowBytes() / static_cast<std::size_t>(out.columns);
+  out.opaque.reserve(raster.bytes.size() / samples);
+  for (std::size_t at = samples - 1; at < raster.bytes.size(); at += samples)
+    out.opaque.push_back(raster.bytes[at] >= HALF_ALPHA);
   return out;
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "canopy/canopy_layout_reader.h"
 #include "core/config/scenario.h"
 #include "core/error_text.h"
@@ -176,6 +178,33 @@ TEST(Layout, OfEachScenarioIsAcceptedAndMoves) {
     const Vec3 top = plant.position + Vec3(0.0, 0.0, 1.0);
     EXPECT_GT(length(canopy.foliage().displacement(top, top, 0)), 0.005) << name;
   }
+}
+
+// S3-05, S3-30: the last scene of figure 1 of paper 3 has grass, shrubs, crowns and a tree in five
+// layers, "3-1-1", each of which is dense.
+TEST(Layout, OfTheGroveFillsTheFiveLayersOfThePaper) {
+  Scenario scenario = Scenario::load(PACKAGE_FOLDER "/config/scenarios/grove.yaml");
+  const terrain::HeightMap flat;
+  const Layout layout = readLayout(scenario.section("canopy"), FOLDER, flat, 1, scenario.faults());
+  scenario.finish();
+  EXPECT_EQ(layout.motion.cuts.near_layers, 3);
+  EXPECT_EQ(layout.motion.cuts.mid_layers, 1);
+  EXPECT_EQ(layout.motion.cuts.far_layers, 1);
+  EXPECT_EQ(layout.crowns.size(), 1U);
+  Canopy canopy(layout);
+  run(canopy, 0, 2);
+  ASSERT_EQ(canopy.foliage().layers(), 5);
+  std::vector<int> leaves(5);
+  std::map<std::string, int> plants;
+  for (const Plant& plant : layout.plants) {
+    const PlantKind& kind = layout.kinds[plant.kind];
+    ++plants[kind.name];
+    for (const Leaf& leaf : grow(kind, plant).leaves)
+      ++leaves[static_cast<std::size_t>(canopy.foliage().layerAt(leaf.anchor))];
+  }
+  for (std::size_t layer = 0; layer < leaves.size(); ++layer)
+    EXPECT_GT(leaves[layer], 1000) << layer;
+  for (const char* kind : {"grass", "shrub", "crown", "fern"}) EXPECT_GT(plants[kind], 1) << kind;
 }
 
 // N11: crops are described once, in config/plants.

@@ -312,33 +312,5 @@ TEST(Replica, RejectsAnotherLayout) {
   EXPECT_THROW(another.restore(canopy.snapshot()), InvalidInput);
 }
 
-// S3-W7: what a vertex shader needs, looked up as it would, is the motion of every leaf.
-TEST(Foliage, IsAvailableAsTexturesForShaders) {
-  const Layout layout = shrubScene();
-  Canopy canopy(layout);
-  canopy.setWind(breezeFrom(Vec3(1.0, 5.0, 0.0)));
-  run(canopy, 0, 60);
-  const Foliage& foliage = canopy.foliage();
-  const Plane plane(layout.motion.plane);
-  const int size = layout.motion.fluid.cells;
-  std::vector<std::vector<float>> sheets;
-  for (int layer = 0; layer < foliage.layers(); ++layer) sheets.push_back(foliage.sheet(layer));
-  for (const Leaf& leaf : grow(layout.kinds[0], layout.plants[1]).leaves) {
-    const PlaneVector cell = plane.cellAt(leaf.tip, size);
-    const std::vector<float>& sheet =
-        sheets[static_cast<std::size_t>(foliage.layerAt(leaf.anchor))];
-    const int x = static_cast<int>(std::floor(cell.u)), y = static_cast<int>(std::floor(cell.v));
-    Vec3 looked = Vec3::Zero();
-    for (const int i : {0, 1})
-      for (const int j : {0, 1}) {
-        const double p = cell.u - x, q = cell.v - y;
-        const int at = (((y + j) & (size - 1)) * size + ((x + i) & (size - 1))) * 3;
-        const double w = (i ? p : 1.0 - p) * (j ? q : 1.0 - q);
-        for (int k = 0; k < 3; ++k) looked[k] += w * sheet[static_cast<std::size_t>(at + k)];
-      }
-    EXPECT_LT(length(Vec3(looked - foliage.motion(leaf.anchor, leaf.tip))), 1e-5);  // single
-  }
-}
-
 }  // namespace
 }  // namespace vegetation_sim::canopy

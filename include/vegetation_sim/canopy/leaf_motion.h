@@ -85,9 +85,8 @@ class Foliage {
   /// Returns the velocity [m/s] of the layer of `anchor` at a point, in the view's axes: right, up,
   /// towards the viewer.
   Vec3 motion(const Vec3& anchor, const Vec3& point) const;
-  /// Returns the velocity of a layer as a texture for vertex shaders, periodic and bilinear
-  /// (S3-W7): [cells x cells x 3] right, up, towards the viewer, row after row from the lowest
-  /// [m/s].
+  /// Returns the velocity of a whole layer in single precision, for checks and hashes: [cells x
+  /// cells x 3] right, up, towards the viewer, row after row from the lowest [m/s].
   std::vector<float> sheet(int layer) const;
   int layerAt(const Vec3& anchor) const { return cuts_[0].cut.layerAt(anchor); }
   int layers() const { return cuts_[0].cut.layers(); }

@@ -116,6 +116,9 @@ void SensorBase::reportProblems(Status& status) {
   warnOfMore(status, scene_.trees.leftOut(), 0, "trees in range left out because of branch_budget");
   warnOfMore(status, scene_.plants.leftOut(), 0, "plants in range left out because of leaf_budget");
   warnOfMore(status, scene_.crowns.leftOut(), 0, "crowns in range left out because of leaf_budget");
+  if (const auto& faults = scene_.plants.textureFaults(); !faults.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        faults.front() + "; rays do not pass its faces");
   if (const std::string why = landscape_.why(); !why.empty())
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "waiting for a key frame: " + why);
   if (const std::string rivals = landscape_.rivals(); !rivals.empty())

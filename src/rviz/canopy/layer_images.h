@@ -15,7 +15,8 @@
 
 namespace vegetation_sim::view {
 
-/// Layers of plants that are drawn as pictures instead of leaf by leaf (paper 3). Pictures are
+/// Layers of plants that are drawn as pictures instead of leaf by leaf (paper 3). The pictures are
+/// on the graphics card alone (S3-W7); the processor moves the grids on which they lie. They are
 /// rendered when the layers are cut, when the eye has moved so far that the predicted error exceeds
 /// the tolerance, and when leaves or light have changed. Rendering many leaves takes several
 /// updates, and new pictures fade in over the old ones. A layer with few leaves, or whose picture

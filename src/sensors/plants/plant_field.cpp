@@ -43,7 +43,10 @@ void Plants::update(const canopy::Layout& layout, std::uint64_t layout_hash,
                     const canopy::Foliage& foliage, const Vec3& centre, double radius,
                     ThreadPool& threads) {
   auto known = plants_.take();
-  if (layout_hash_ != layout_hash) known.clear();
+  if (layout_hash_ != layout_hash || !masks_.areOf(layout)) {
+    known.clear();
+    masks_ = PlantMasks(layout);
+  }
   layout_hash_ = layout_hash;
   std::vector<std::uint32_t> chosen;
   choose(layout, centre, radius, chosen);
@@ -54,7 +57,8 @@ void Plants::update(const canopy::Layout& layout, std::uint64_t layout_hash,
     for (std::size_t i = first; i < chosen.size(); i += parts) {
       const double height = foliage.cutHeight(chosen[i]);
       if (!plants[i] || plants[i]->cutHeight() != height)
-        plants[i] = std::make_shared<PosedPlant>(layout, chosen[i], height);
+        plants[i] = std::make_shared<PosedPlant>(layout, chosen[i], height,
+                                                 masks_.of(layout.plants[chosen[i]].kind));
       plants[i]->pose(foliage);
     }
   });

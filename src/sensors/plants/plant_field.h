@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/threads/thread_pool.h"
@@ -35,6 +36,8 @@ class Plants {
   const std::vector<std::shared_ptr<PosedPlant>>& all() const { return plants_.all(); }
   /// Returns the number of leaves and faces that the plants have uncut.
   std::size_t leaves() const { return leaves_; }
+  /// Texts for the user about textures that are not read; their faces are opaque.
+  const std::vector<std::string>& textureFaults() const { return masks_.faults(); }
   /// Returns the number of plants that exceeded the limit in the last update().
   std::size_t leftOut() const { return left_out_; }
 
@@ -44,6 +47,7 @@ class Plants {
 
   std::size_t most_leaves_;
   std::uint64_t layout_hash_{0};
+  PlantMasks masks_;             ///< of the layout
   PosedSet<PosedPlant> plants_;  ///< nearest first
   std::size_t leaves_{0}, left_out_{0};
 };

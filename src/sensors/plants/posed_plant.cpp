@@ -24,8 +24,9 @@ Rod rodOf(const Vec3& from, const Vec3& to, double radius) {
 
 }  // namespace
 
-PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height)
-    : id_(id), cut_height_(height), foot_(layout.plants[id].position) {
+PosedPlant::PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height,
+                       std::shared_ptr<const KindMasks> masks)
+    : id_(id), cut_height_(height), foot_(layout.plants[id].position), masks_(std::move(masks)) {
   const canopy::Plant& plant = layout.plants[id];
   const canopy::PlantKind& kind = layout.kinds[plant.kind];
   paint_ = {kind.colour, kind.colour_young, kind.stem_colour};
@@ -81,11 +82,18 @@ void PosedPlant::meet(const Ray& ray, const FloatRay& narrow, std::uint64_t firs
 bool PosedPlant::meetStrip(std::size_t strip, const Ray& ray, Hit& nearest) const {
   Meeting meeting;
   if (!scan::meet(ray, strips_[strip], nearest.distance, meeting)) return false;
+  if (masks_ && isHole(strip, ray.at(meeting.distance))) return false;
   const bool leaf = strip < leaves_.size();
   nearest = {meeting.distance, leaf ? Label::FOLIAGE : Label::STEM, id_,
              static_cast<int>(leaf ? strip : stems_.size() + strip - leaves_.size()),
              meeting.cosine};
   return true;
+}
+
+bool PosedPlant::isHole(std::size_t strip, const Vec3& place) const {
+  const canopy::Leaf& face =
+      strip < leaves_.size() ? leaves_[strip] : rigid_[strip - leaves_.size()];
+  return masks_->isHole(face, strips_[strip], place);
 }
 
 bool PosedPlant::meetStem(std::size_t stem, const Ray& ray, Hit& nearest) const {

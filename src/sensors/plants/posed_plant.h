@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sensors/geometry/ranked_hit.h"
+#include "sensors/plants/plant_masks.h"
 #include "sensors/traversal/rod_tree.h"
 #include "sensors/traversal/strip_tree.h"
 #include "vegetation_sim/canopy/leaf_motion.h"
@@ -13,11 +15,14 @@
 namespace vegetation_sim::scan {
 
 /// One leafy plant of a canopy for rays: a strip per leaf, piece of a ribbon or face, of which the
-/// leaves move, and a rod per stem. Where bodies push the plant, all parts move.
+/// leaves move, and a rod per stem. Where bodies push the plant, all parts move. Rays pass where
+/// the texture of a face is transparent.
 class PosedPlant {
  public:
-  /// Grows the plant. @param height at which it has been cut [m].
-  PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height = canopy::UNCUT);
+  /// Grows the plant. @param height at which it has been cut [m]. @param masks of its kind; null:
+  /// all faces are opaque.
+  PosedPlant(const canopy::Layout& layout, std::uint32_t id, double height = canopy::UNCUT,
+             std::shared_ptr<const KindMasks> masks = {});
 
   /// Moves all leaves with their layers, and all parts with their fibres.
   void pose(const canopy::Foliage& foliage);
@@ -46,11 +51,13 @@ class PosedPlant {
 
  private:
   void bendWood(const canopy::Foliage& foliage);
+  bool isHole(std::size_t strip, const Vec3& place) const;
 
   std::uint32_t id_;
   double cut_height_;
   Vec3 foot_;  ///< world [m]
   Paint paint_;
+  std::shared_ptr<const KindMasks> masks_;    ///< null: all faces are opaque
   std::vector<canopy::Leaf> leaves_, rigid_;  ///< at rest
   std::vector<canopy::Stem> grown_stems_;     ///< at rest
   std::vector<Strip> strips_;                 ///< of leaves_, then of rigid faces

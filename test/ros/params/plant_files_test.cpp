@@ -5,13 +5,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "core/error_text.h"
 #include "ros/params/mesh_file.h"
+#include "terrain/opacity_mask.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
 namespace vegetation_sim {
@@ -112,6 +115,37 @@ TEST_F(PlantFiles, AreFoundInPackages) {
   const canopy::Form moss =
       canopy::formOf(loadSlices("package://vegetation_sim/media/plants/cushion_00.png"), 0.5);
   EXPECT_GT(moss.leaves.size(), 500U);
+}
+
+// S3-29: the fern of the package has fronds that are cut out of a texture, each of which is one
+// leaf.
+TEST_F(PlantFiles, OfThePackageHaveATextureWithAlpha) {
+  canopy::Layout layout;
+  layout.kinds.resize(1);
+  layout.kinds[0].shape = canopy::PlantShape::MESH;
+  layout.kinds[0].file = "package://vegetation_sim/media/plants/fern.obj";
+  Faults faults;
+  loadPublishedForms(layout, {}, faults);
+  ASSERT_TRUE(faults.empty()) << faults.text();
+  const canopy::Form& form = *layout.kinds[0].form;
+  std::set<std::array<double, 3>> anchors;
+  for (const canopy::Leaf& face : form.leaves) {
+    anchors.insert({face.anchor.x(), face.anchor.y(), face.anchor.z()});
+    ASSERT_GT(face.look, 0U);
+    EXPECT_EQ(form.materials[form.looks[face.look - 1].material].texture, "fern.png");
+  }
+  EXPECT_EQ(anchors.size(), 22U);
+  const auto frond =
+      std::find_if(form.materials.begin(), form.materials.end(),
+                   [](const canopy::FaceMaterial& each) { return !each.texture.empty(); });
+  ASSERT_NE(frond, form.materials.end());
+  ASSERT_TRUE(frond->picture) << frond->fault;
+  const terrain::OpacityMask mask = terrain::parseOpacityMask(*frond->picture);
+  EXPECT_EQ(mask.columns, 64);
+  EXPECT_EQ(mask.rows, 128);
+  const auto opaque = std::count(mask.opaque.begin(), mask.opaque.end(), true);
+  EXPECT_GT(opaque, 64 * 128 / 3);
+  EXPECT_LT(opaque, 64 * 128 * 2 / 3);
 }
 
 // S3-29: an image stack is a plant.

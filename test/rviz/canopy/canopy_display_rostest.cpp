@@ -358,7 +358,7 @@ TEST_F(CanopyDisplayTest, PicturesLookLikeTheirLeaves) {
   EXPECT_NEAR(difference(pictures, moved_pictures), motion, 0.3 * motion);
 }
 
-// Moving costs no rendering of leaves, another eye does.
+// S3-28, S3-W7: pictures stay on the graphics card: moving renders no leaves, another eye does.
 TEST_F(CanopyDisplayTest, PicturesAreRenderedAgainOnlyForAnotherEye) {
   showBank();
   seen(100.0);
