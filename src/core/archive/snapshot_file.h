@@ -11,7 +11,7 @@ namespace vegetation_sim {
 
 /// Version of the content of snapshot files. Raise it with every change of what is archived: other
 /// versions are rejected with an error that names them.
-constexpr std::uint32_t SNAPSHOT_VERSION = 14;
+constexpr std::uint32_t SNAPSHOT_VERSION = 15;
 /// Largest file that is read [bytes].
 constexpr std::size_t LARGEST_SNAPSHOT = 2'000'000'000;
 

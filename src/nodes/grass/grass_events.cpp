@@ -42,7 +42,7 @@ std::string applyToGrass(const GrassEvent& event, const GrassTuning& tuning,
       simulation.cut(fromMsg(event.cut, "cut: "));
       return "";
     default:
-      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 6");
+      throw InvalidInput("kind = " + std::to_string(event.kind) + " is outside 0 to 7");
   }
 }
 

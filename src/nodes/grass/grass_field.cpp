@@ -99,7 +99,7 @@ void GrassField::connect() {
 
 void GrassField::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
-  if (!coloured_) setColours(options_.scene.colours, stamp);
+  if (!coloured_) colourAsInScenario(stamp);
   if (!options_.replay) {
     followSources(stamp);
     followCutters(stamp);
@@ -119,6 +119,9 @@ void GrassField::apply(GrassEvent& event) {
       break;
     case GrassEvent::RESET:
       resetGround();
+      break;
+    case GrassEvent::COLOURS:
+      setColours(masksOf(event.colours, stampOf(event)));
       break;
     case GrassEvent::ENTER:  // an output of the recorded node
       break;
@@ -176,16 +179,24 @@ void GrassField::resetGround() {
 
 bool GrassField::isOutdated(const GrassEvent& event) const {
   return event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR ||
-         event.kind == GrassEvent::CUT;
+         event.kind == GrassEvent::CUT || event.kind == GrassEvent::COLOURS;
 }
 
-// Colours have no effect on the ground, so they are no events. A recording has the topic.
-void GrassField::setColours(std::vector<grass::ColourMask> list, Nanoseconds stamp) {
-  colours_ = {stamp, std::move(list)};
+// The first tick of a replay is another one, since it is behind. Where discs are that move follows
+// from the event.
+void GrassField::colourAsInScenario(Nanoseconds stamp) {
+  const grass::ColourMasks colours{stamp, options_.scene.colours};
+  if (options_.replay || colours.list.empty()) return setColours(colours);
+  inputs_.addFirst(coloursEvent(colours));
+  coloured_ = true;
+}
+
+void GrassField::setColours(grass::ColourMasks colours) {
+  colours_ = std::move(colours);
   coloured_ = true;
   GrassColours message = toMsg(colours_);
   message.header.frame_id = options_.frame_id;
-  if (!options_.replay) colours_publisher_.publish(message);
+  colours_publisher_.publish(message);
 }
 
 void GrassField::restart() {

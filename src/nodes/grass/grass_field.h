@@ -62,6 +62,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void followCutters(Nanoseconds stamp);
   TreadEvent inWorld(const TreadEvent& message) const;
   GrassEvent treadEvent(const grass::TreadInput& input) const;
+  /// Event of discs that have their places at its tick.
+  static GrassEvent coloursEvent(const grass::ColourMasks& colours);
 
   // Time.
   void tick(std::int64_t tick) override;
@@ -70,6 +72,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   /// order, from whichever nodes and however late they come.
   void arrange(std::vector<GrassEvent>& events) const override;
   void applyToGround(const GrassEvent& event);
+  void colourAsInScenario(Nanoseconds stamp);
   void applyTuning(GrassTuning tuning);
   void resetGround();
   void restart() override;
@@ -77,13 +80,13 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
 
   // Snapshots.
   std::uint64_t sceneHash() const override;
-  std::uint64_t stateHash() const override { return field_->snapshot().hash(); }
+  std::uint64_t stateHash() const override;
   void writeState(Archive& a) const override;
   CheckedState readState(Archive& a) override;
 
   // Outputs.
   void publishLayout();
-  void setColours(std::vector<grass::ColourMask> list, Nanoseconds stamp);
+  void setColours(grass::ColourMasks colours);
   void publishState(std::int64_t tick);
   void publishNear(const grass::TreadUpdate& update);
   void publishEntering(Nanoseconds stamp);
@@ -128,7 +131,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::unique_ptr<WholeMeadow> whole_;  // of the node that shows the ground of all shards
   wind::Field wind_;
   grass::ColourMasks colours_;
-  bool coloured_{false};  // the discs of the scenario have been published
+  bool coloured_{false};  // the discs of the scenario are in force, or an event that waits
   std::unique_ptr<GrassMarkers> markers_;
   KeyFrames key_frames_;
   SensorRegistry sensors_;

@@ -45,6 +45,13 @@ GrassEvent GrassField::treadEvent(const grass::TreadInput& input) const {
   return event;
 }
 
+GrassEvent GrassField::coloursEvent(const grass::ColourMasks& colours) {
+  GrassEvent event;
+  event.kind = GrassEvent::COLOURS;
+  event.colours = toMsg(colours).colours;
+  return event;
+}
+
 void GrassField::onTread(const TreadEvent& message) {
   acceptInput("tread", [&] {
     TreadEvent tread = inWorld(message);

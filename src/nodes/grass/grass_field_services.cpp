@@ -179,11 +179,10 @@ bool GrassField::onSetColours(SetGrassColours::Request& request,
                               SetGrassColours::Response& response) {
   return answer(response, [&]() -> std::string {
     refuseInReplay();
-    GrassColours message;
-    message.colours = request.colours;
-    setColours(fromMsg(message).list, clock_.stamp());
-    checkpointNow();  // no event shows them
-    return std::to_string(request.colours.size()) + " discs";
+    GrassEvent event = coloursEvent(masksOf(request.colours, 0));
+    checkDiscsToWait(inputs_, event.colours.size());
+    enqueue(std::move(event));
+    return std::to_string(request.colours.size()) + " discs from the next tick on";
   });
 }
 

@@ -18,6 +18,16 @@ void archiveColours(Archive& a, grass::ColourMasks& colours) {
          [&a](grass::ColourMask& disc) { a.fields("colours", disc); });
 }
 
+// A camera sees the discs, so they count with the ground, as they are at the last tick.
+std::uint64_t hashOfAll(const grass::TreadSnapshot& ground, const grass::ColourMasks& colours) {
+  if (colours.list.empty()) return ground.hash();
+  Hash hash;
+  hash.add(ground.hash());
+  FieldHasher fields(hash);
+  for (grass::ColourMask& disc : colours.at(ground.stamp)) describe(fields, disc);
+  return hash.value();
+}
+
 }  // namespace
 
 // The law of sources can change while the node runs.
@@ -33,6 +43,10 @@ std::uint64_t GrassField::sceneHash() const {
     for (const std::uint32_t part : {options_.shard->index, options_.shard->count})
       hash.add(std::uint64_t{part});
   return hash.value();
+}
+
+std::uint64_t GrassField::stateHash() const {
+  return hashOfAll(field_->snapshot(), colours_);
 }
 
 void GrassField::writeState(Archive& a) const {
@@ -66,13 +80,13 @@ CheckedState GrassField::readState(Archive& a) {
   grass::ColourMasks colours;
   archiveColours(a, colours);
   const grass::TreadSnapshot read = field_->readArchived(std::move(state), a.shift());
-  return {read.hash(), [=] {
+  return {hashOfAll(read, colours), [=] {
             applyTuning(tuning);
             field_->restore(read);
             paths_ = paths;
             sources_.restore(sources);
             cutters_.restore(cutters);
-            setColours(colours.list, colours.stamp);
+            setColours(colours);
             key_frames_.demand();
           }};
 }

@@ -17,6 +17,11 @@ void checkRoomToWait(const EventQueue<GrassEvent>& inputs, const GrassCut& cut, 
   checkWorkToWait(inputs, work);
 }
 
+void checkDiscsToWait(const EventQueue<GrassEvent>& inputs, std::size_t discs) {
+  inputs.checkShare("discs of colour that wait", discs, MOST_WAITING_DISCS,
+                    [](const GrassEvent& event) { return event.colours.size(); });
+}
+
 void checkWorkToWait(const EventQueue<GrassEvent>& inputs, double work) {
   inputs.checkCost("nodes of treads and cuts that wait", static_cast<std::size_t>(work),
                    MOST_WAITING_WORK);

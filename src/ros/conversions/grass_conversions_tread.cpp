@@ -113,9 +113,13 @@ GrassColours toMsg(const grass::ColourMasks& masks) {
 }
 
 grass::ColourMasks fromMsg(const GrassColours& message) {
+  return masksOf(message.colours, fromMsg(message.header.stamp));
+}
+
+grass::ColourMasks masksOf(const std::vector<GrassColour>& discs, Nanoseconds stamp) {
   grass::ColourMasks out;
-  out.stamp = fromMsg(message.header.stamp);
-  for (const GrassColour& c : message.colours)
+  out.stamp = stamp;
+  for (const GrassColour& c : discs)
     out.list.push_back({{c.x, c.y}, c.radius, c.colour, c.weight, {c.velocity_x, c.velocity_y}});
   Faults faults;
   check(out, faults);

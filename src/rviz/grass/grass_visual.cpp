@@ -16,7 +16,6 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
-constexpr int MOST_LAYERS = 5;         // more are too slow to rasterise
 constexpr int ROWS = 3;                // of strips in a tile, each way
 constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
 constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
@@ -55,6 +54,14 @@ bool haveArrived(const grass::MeadowLodSnapshot& memory, double transition) {
                        return placeAt(level.tier, memory.stamp, transition) ==
                               static_cast<double>(level.tier.target);
                      });
+}
+
+// Blades slide where strips on edges take over from them (S2-12). Rows and layers are spread over
+// the tile as the blades are: blades that only become narrower change the picture less than blades
+// that also move, to the same picture in the end.
+double slideOf(const grass::TileView& tile, const GrassVisual::Options& options) {
+  if (!options.strips || !options.edge_strips) return 0.0;
+  return tile.morph.slide * (1.0 - grass::layerWeight(tile.elevation));
 }
 
 double squareDistance(const grass::TileView& tile, const grass::MapLaw& law, const Vec3& eye) {
@@ -170,7 +177,7 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
       addBlades(tile, motion, tile_view, eye, options);
       shade.darken(tile_view.column, tile_view.row, first, blade_mesh_);
       const double distance = std::sqrt(squareDistance(tile_view, law, eye));
-      reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.slide)));
+      reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.strip)));
     }
     if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view, options);
   }
@@ -191,10 +198,10 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   grass::RibbonStyle style;
   style.segments = view.segments;
   style.leaving = std::min(LEAVING, (1.0 - view.share) / view.share);
-  // Fewer blades hide each other less. Blades at the edge of their tile have width 0.
+  // Fewer blades hide each other less. They have width 0 where strips are fully grown.
   style.width = std::pow(view.share * (1.0 - 0.5 * style.leaving), -0.95) *
-                (1.0 - view.morph.slide * view.morph.slide);
-  style.slide = view.morph.slide;
+                (1.0 - view.morph.strip * view.morph.strip);
+  style.slide = slideOf(view, options);
   style.eye = eye;
   style.light = &light_;
   style.crush = motion.crush;

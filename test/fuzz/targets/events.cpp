@@ -4,6 +4,8 @@
 #include <vegetation_sim/CrowdEvent.h>
 #include <vegetation_sim/GrassEvent.h>
 
+#include <cmath>
+
 #include "core/config/field_values.h"
 #include "crowd/agents/crowd.h"
 #include "forest/forest.h"
@@ -165,9 +167,11 @@ class GrassRig {
     for (const grass::Drag& drag : grass_.drags()) requireFinite(drag.force, "drag of grass");
     if (!(grass_.resistanceAt({1.0, 1.0}, stamp) >= 0.0))
       throw BrokenPromise("the resistance of grass is below 0");
+    if (!std::isfinite(grass::averageColour(0.5, colours_.at(stamp), 1.0, 1.0)))
+      throw BrokenPromise("a colour is not finite");
     grass_.update(true);
   }
-  void apply(const GrassEvent& event, Nanoseconds) {
+  void apply(const GrassEvent& event, Nanoseconds stamp) {
     switch (event.kind) {
       case GrassEvent::SETTINGS: {
         const auto tuning = fromNamedValues<GrassTuning>({event.names, event.values});
@@ -179,6 +183,9 @@ class GrassRig {
       }
       case GrassEvent::RESET:
         grass_.reset();
+        break;
+      case GrassEvent::COLOURS:
+        colours_ = masksOf(event.colours, stamp);
         break;
       default:
         applyToGrass(event, tuning_, grass_);
@@ -197,6 +204,7 @@ class GrassRig {
     return std::make_shared<const terrain::HeightMap>();
   }
   GrassTuning tuning_;
+  grass::ColourMasks colours_;
   grass::TreadMap map_;
   grass::TreadSimulation grass_;
 };
@@ -229,7 +237,10 @@ std::vector<std::string> grassSeeds() {
   event.cut.outline.resize(1);
   event.cut.radius = 0.5;
   out.push_back(out.back() + eventPiece(event, GrassEvent::CUT));
-  for (const std::uint8_t kind : {GrassEvent::CLEAR, GrassEvent::RESET})
+  event.colours.resize(2);
+  event.colours[0].radius = event.colours[0].weight = event.colours[1].radius = 1.0;
+  event.colours[1].velocity_x = -2.0;
+  for (const std::uint8_t kind : {GrassEvent::COLOURS, GrassEvent::CLEAR, GrassEvent::RESET})
     out.push_back(out.back() + eventPiece(event, kind));
   return out;
 }

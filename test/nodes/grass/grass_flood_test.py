@@ -12,7 +12,7 @@ import rostest
 from geometry_msgs.msg import Point
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
-from vegetation_sim.msg import ErrorCode, GrassCut, TreadEvents, TreadLaw
+from vegetation_sim.msg import ErrorCode, GrassColour, GrassCut, TreadEvents, TreadLaw
 
 from forest_rig import TickClock, memory_of
 from grass_rig import FULL, RATE, Feet, Meadow, step, time_of, wide_stroke
@@ -23,6 +23,8 @@ MOST_WAITING = 10000  # limit of the inputs of one client that may wait for a ti
 PER_SECOND = 10000
 MOST_OUTLINE = 1000  # points of the outline or the swath of a cut
 MOST_POINTS = 1000000  # of all cuts of one client that wait
+MOST_LIST = 256  # discs of colour of a request
+MOST_DISCS = 25000  # of all requests of one client that wait
 MOST_WIDE = 30  # wide strokes across the lawn that press 5e7 nodes, or fewer: the share of a client
 
 
@@ -130,6 +132,22 @@ class GrassFlood(unittest.TestCase):
         self.assertEqual((answer.success, answer.error_code), (False, ErrorCode.NO_ROOM))
         self.assertIn('nodes of treads and cuts that wait = ', answer.message)
         self.assertTrue(self.grass.tread(points=path[:10], law=law).success)
+
+    # The discs of colour of all requests that wait are bounded too.
+    def test_6_discs_that_wait_are_bounded(self):
+        self.clock.run(1, self.grass)  # nothing waits
+        discs = [GrassColour(radius=1.0)] * MOST_LIST
+        taken = MOST_DISCS // MOST_LIST
+        for _ in range(taken):
+            answer = self.grass.set_colours(colours=discs)
+            self.assertTrue(answer.success, answer.message)
+        answer = self.grass.set_colours(colours=discs)
+        self.assertEqual((answer.success, answer.error_code), (False, ErrorCode.NO_ROOM))
+        self.assertEqual(answer.message, 'discs of colour that wait = %d with the %d of this request, '
+                         'allowed are 0 to %d' % ((taken + 1) * MOST_LIST, MOST_LIST, MOST_DISCS))
+        self.clock.run(1, self.grass)
+        answer = self.grass.set_colours(colours=discs)
+        self.assertTrue(answer.success, answer.message)
 
 
 if __name__ == '__main__':

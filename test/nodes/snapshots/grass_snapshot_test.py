@@ -57,23 +57,58 @@ class GrassSnapshot(SnapshotCase):
         self.run_to(node, 0, 60)
         node.save('coloured')
         before = node.client.at(1.0, 2.0).colour
-        self.assertTrue(node.client.set_colours(colours=[]).success)
+        self.colour(node)
+        self.clock.run(1, node.client)
         after = node.client.at(1.0, 2.0).colour
         self.assertNotAlmostEqual(before, after, 2)
         node.load('coloured')
         self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, before, 6)
 
-    # No event shows the discs, so each change is a checkpoint.
+    def colour(self, node, *colours):
+        """Replaces the discs by discs of these colours around (1, 2), at the next tick."""
+        discs = [GrassColour(x=1.0, y=2.0, radius=3.0, colour=c, weight=2.0) for c in colours]
+        answer = node.client.set_colours(colours=discs)
+        self.assertTrue(answer.success, answer.message)
+
+    def test_discs_of_colour_that_wait_are_saved(self):
+        node = self.start('coloured', 0)
+        self.run_to(node, 0, 3)
+        plain = node.client.at(1.0, 2.0).colour
+        self.colour(node, 0.5)
+        node.save('waiting')
+        self.assertEqual(node.client.at(1.0, 2.0).colour, plain)
+        self.colour(node)
+        self.clock.run(1, node.client)
+        node.load('waiting')
+        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, plain, 6)
+        self.clock.run(1, node.client)
+        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, (plain + 2.0 * 0.5) / 3.0, 6)
+
+    # The journal has them while they wait, and once they are in force.
     def test_discs_of_colour_survive_a_kill(self):
         node = self.start('coloured', 0, checkpoint_period=1000.0, checkpoint=True)
         self.run_to(node, 0, 3)
-        disc = GrassColour(x=1.0, y=2.0, radius=3.0, colour=0.5, weight=2.0)
-        self.assertTrue(node.client.set_colours(colours=[disc]).success)
-        before = node.client.at(1.0, 2.0).colour
-        self.restart(node)
-        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, before, 6)
-        self.assertTrue(node.client.set_colours(colours=[]).success)
-        self.assertNotAlmostEqual(node.client.at(1.0, 2.0).colour, before, 2)
+        plain = node.client.at(1.0, 2.0).colour
+        self.colour(node, 0.5)
+        for _ in range(2):
+            self.restart(node)
+            self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, (plain + 2.0 * 0.5) / 3.0, 6)
+        self.colour(node)
+        self.clock.run(1, node.client)
+        self.assertAlmostEqual(node.client.at(1.0, 2.0).colour, plain, 6)
+
+    # A camera sees the discs.
+    def test_the_hash_of_a_state_has_the_discs(self):
+        hashes = []
+        for colours in [], [0.5], [0.5], [0.6]:
+            node = self.start('coloured_%d' % len(hashes), 0)
+            self.run_to(node, 0, 3)
+            self.colour(node, *colours)
+            self.clock.run(1, node.client)
+            hashes.append(node.state_hash())
+            node.stop()
+        self.assertEqual(hashes[1], hashes[2])
+        self.assertEqual(len(set(hashes)), 3)
 
     def restart(self, node):
         """Kills a node, and runs a tick of the next process."""

@@ -133,6 +133,49 @@ TEST_F(GrassStateConversions, RejectInvalidStates) {
   EXPECT_NE(errorOf([&] { fromMsg(nodes); }).find("press = 77"), std::string::npos);
 }
 
+// S2-18: as a message of their own, and in an event.
+TEST(ColourConversions, ReturnEveryFieldOfTheDiscs) {
+  grass::ColourMasks masks;
+  masks.stamp = 7 * NANOSECONDS_PER_SECOND + 5;
+  masks.list = {{{1.0, -2.0}, 3.0, 0.25, 4.0, {5.0, -6.0}}, {{-1.5, 2.5}, 0.5, 1.0, 100.0, {}}};
+  const GrassColours message = toMsg(masks);
+  const Nanoseconds later = masks.stamp + NANOSECONDS_PER_SECOND;
+  const grass::ColourMasks back = fromMsg(message), moved = masksOf(message.colours, later);
+  EXPECT_EQ(back.stamp, masks.stamp);
+  EXPECT_EQ(moved.stamp, later);
+  for (const auto& list : {back.list, moved.list}) {
+    ASSERT_EQ(list.size(), masks.list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const grass::ColourMask &disc = list[i], &own = masks.list[i];
+      EXPECT_EQ(disc.centre.x, own.centre.x);
+      EXPECT_EQ(disc.centre.y, own.centre.y);
+      EXPECT_EQ(disc.radius, own.radius);
+      EXPECT_EQ(disc.colour, own.colour);
+      EXPECT_EQ(disc.weight, own.weight);
+      EXPECT_EQ(disc.velocity.x, own.velocity.x);
+      EXPECT_EQ(disc.velocity.y, own.velocity.y);
+    }
+  }
+}
+
+TEST(ColourConversions, RefuseDiscsWithAllTheirFaults) {
+  std::vector<GrassColour> discs(2);
+  discs[0].radius = 1.0;
+  discs[0].colour = 1.5;
+  discs[0].weight = -1.0;
+  discs[1].x = 2e7;
+  discs[1].velocity_y = GRASS_NAN;
+  const std::string faults = errorOf([&] { masksOf(discs, 0); });
+  for (const char* part :
+       {"colours[0].colour = 1.5", "colours[0].weight = -1", "colours[1].x = 2e+07",
+        "colours[1].radius = 0", "colours[1].velocity_y = nan"})
+    EXPECT_NE(faults.find(part), std::string::npos) << part << " in " << faults;
+  GrassColour disc;
+  disc.radius = 1.0;
+  EXPECT_EQ(errorOf([&] { masksOf(std::vector<GrassColour>(257, disc), 0); }),
+            "colours has 257 discs, allowed are 256");
+}
+
 TEST(TreadConversions, NumbersThatAreNotGivenAreThoseOfTheNode) {
   const grass::TreadLaw own{0.1, 0.3, 0.08, 0.9, 30.0};
   TreadEvent message;

@@ -111,6 +111,67 @@ TEST_F(GrassDisplayTest, DrawsFewerBladesWhileFramesTakeTooLong) {
       << " of " << all;
 }
 
+// Shows few tiles of sparse blades, painted by level, so that most pixels of the meadow are ground.
+void showSparseBlades(GrassRig& rig, GrassDisplay& display) {
+  constexpr int FEW_TILES = 4;
+  display.subProp("Colour by Level")->setValue(true);
+  display.subProp("Tolerance")->setValue(2.0);
+  display.subProp("Transition")->setValue(0.1);
+  rig.lookAt(0.3f, 0.35, 9.0);
+  grass::Layout sparse = GrassRig::meadow(FEW_TILES);
+  grass::MapInput input = sparse.map->input();
+  input.density.value = 60.0;
+  input.species.resize(1);
+  sparse.map = std::make_shared<const grass::FeatureMap>(input);
+  rig.publishMeadow(sparse, 0.0);
+  EXPECT_TRUE(rig.until([&] { return display.drawn().tiles == FEW_TILES * FEW_TILES; }));
+}
+
+// Returns which pixels show blades: they are red, and all else is not.
+std::vector<bool> bladesIn(const std::vector<std::uint8_t>& picture) {
+  std::vector<bool> out(picture.size() / 3);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const int red = picture[3 * i], blue = picture[3 * i + 2];
+    out[i] = red > 150 && red > blue + 100;
+  }
+  return out;
+}
+
+// Returns the share of the pixels of blades amid their transition to strips that showed blades at
+// its begin, when these had their full width. The transition is slow while time passes, and then so
+// fast that it stands in its middle.
+double shareAtTheirPlaces(GrassRig& rig, GrassDisplay& display) {
+  constexpr double PART = 0.6;  // of the transition
+  const int before = display.drawn().rebuilds;
+  display.subProp("Tolerance")->setValue(40.0);
+  EXPECT_TRUE(rig.until([&] { return display.drawn().rebuilds > before; }));
+  display.subProp("Transition")->setValue(60.0);
+  const ros::WallTime begin = ros::WallTime::now();
+  rig.frames(4);
+  const std::vector<bool> wide = bladesIn(rig.picture());
+  const auto passed = [&] { return (ros::WallTime::now() - begin).toSec(); };
+  EXPECT_TRUE(rig.until([&] { return passed() > 4.0; }));
+  display.subProp("Transition")->setValue(passed() / PART);
+  rig.frames(3);
+  const std::vector<bool> narrow = bladesIn(rig.picture());
+  double all = 0.0, kept = 0.0;
+  for (std::size_t i = 0; i < narrow.size(); ++i) {
+    all += narrow[i];
+    kept += narrow[i] && wide[i];
+  }
+  std::cout << kept << " of " << all << " pixels of blades are where blades were\n";
+  EXPECT_GT(display.drawn().stripped, 0u);
+  EXPECT_GT(all, 100.0);
+  return kept / all;
+}
+
+// S2-12: where rows take over, blades become narrower at their places.
+TEST_F(GrassDisplayTest, BladesKeepTheirPlacesBetweenRows) {
+  showSparseBlades(rig, *display);
+  ASSERT_TRUE(settled());
+  EXPECT_GT(shareAtTheirPlaces(rig, *display), 0.9);
+}
+
 // S2-12: while blades give way to strips on edges, they move there, and the picture has no jump.
 TEST_F(GrassDisplayTest, BladesSlideToTheStripsOnEdges) {
   display->subProp("Strips on Edges")->setValue(true);
@@ -134,6 +195,9 @@ TEST_F(GrassDisplayTest, BladesSlideToTheStripsOnEdges) {
   std::cout << "change from blades to strips: " << all << " of 255, largest step " << step << "\n";
   EXPECT_GT(all, 1.0);
   EXPECT_LT(step, 0.5 * all);
+  showSparseBlades(rig, *display);
+  ASSERT_TRUE(settled());
+  EXPECT_LT(shareAtTheirPlaces(rig, *display), 0.7);
 }
 
 }  // namespace

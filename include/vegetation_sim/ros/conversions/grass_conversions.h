@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vegetation_sim/GrassColour.h>
 #include <vegetation_sim/GrassColours.h>
 #include <vegetation_sim/GrassCut.h>
 #include <vegetation_sim/GrassLayout.h>
@@ -9,6 +10,7 @@
 #include <vegetation_sim/TreadEvent.h>
 
 #include <string>
+#include <vector>
 
 #include "vegetation_sim/grass/grass_layout.h"
 #include "vegetation_sim/grass/lod/colour_mask.h"
@@ -33,6 +35,8 @@ grass::TreadUpdate fromMsg(const GrassState& message);
 GrassColours toMsg(const grass::ColourMasks& masks);
 /// @throws InvalidInput with all values that are not finite or out of range.
 grass::ColourMasks fromMsg(const GrassColours& message);
+/// The same for discs that have their places at `stamp`.
+grass::ColourMasks masksOf(const std::vector<GrassColour>& discs, Nanoseconds stamp);
 
 GrassCut toMsg(const grass::CutArea& area);
 /// @throws InvalidInput with all values that are not finite or out of range.
