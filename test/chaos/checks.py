@@ -14,7 +14,7 @@ SHORTEST_MEASUREMENT = 900  # [s]; the slope of a shorter time is that of noise
 def check_all(rig, outcomes, seconds, final, again, replays):
     table = Table()
     add_conditions(table, rig, seconds)
-    add_memory(table, rig, outcomes.warm_since)
+    add_memory(table, rig, outcomes.rests)
     add_gaps(table, rig)
     add_names(table, rig, outcomes)
     table.add('winds after kills of wind_broadcaster', '%d equal, %d different' % (
@@ -31,13 +31,13 @@ def add_conditions(table, rig, seconds):
         visitors.sent, visitors.refused, visitors.unanswered))
 
 
-def add_memory(table, rig, since):
-    if since is None:
+def add_memory(table, rig, rests):
+    if not rests:
         table.add('memory', 'not measured: the run is too short for each fault after the last kill')
         return
     for kind in rig.memory.KINDS:
         for node in NODES:
-            trend = rig.memory.trend(node, kind, since)
+            trend = rig.memory.trend(node, kind, rests)
             duration = 3600.0 * trend.duration
             judged = duration >= SHORTEST_MEASUREMENT
             size, margin = rig.memory.samples[node, kind][-1][2], ERRORS * trend.error

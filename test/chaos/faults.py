@@ -31,6 +31,9 @@ SENSOR = 'vegetation_scanner'
 IGNORED = 'Messages of other viewers'
 WARM_ROUNDS = 1       # of all faults after the last kill, before memory is measured
 PAUSES = 0.2, 1.5     # [s] of wall time between two faults
+REST_PERIOD = 240.0   # [s] of simulated time between two rests, in which memory is measured
+SETTLING = 40.0       # [s] of simulated time until what was sent before a rest has ended
+REST = 70.0           # duration of a rest [s] of simulated time
 
 
 def pause(seconds):
@@ -58,6 +61,9 @@ class Faults:
                 rounds += clock.now >= kills_until
                 if rounds == WARM_ROUNDS + 1 and self.outcomes.warm_since is None:
                     self.outcomes.warm_since = clock.now
+            if self._rest_is_due(until):
+                self._rest()
+                continue
             kind, target = deck.pop()
             if kind == self.kill and clock.now >= kills_until:
                 continue
@@ -65,6 +71,21 @@ class Faults:
             kind(target)
             pause(self._random.uniform(*PAUSES))
         jitter.join()
+
+    def _rest_is_due(self, until):
+        rests = self.outcomes.rests
+        if self.outcomes.warm_since is None or self._rig.clock.now + REST > until:
+            return False
+        return not rests or self._rig.clock.now >= rests[-1][1] + REST_PERIOD
+
+    def _rest(self):
+        """Lets the nodes rest, so that they hold what they keep for good."""
+        clock, begin = self._rig.clock, self._rig.clock.now
+        print('%.1f s: rest' % begin, flush=True)
+        with self._rig.visitors.rest():
+            while clock.now < begin + REST:
+                pause(0.1)
+        self.outcomes.rests.append((begin + SETTLING, clock.now))
 
     def _shuffled(self):
         deck = [(self.kill, node) for node in NODES] * KILLS

@@ -17,6 +17,7 @@ class Outcomes:
         self.requests = self.refused = self.unanswered = 0
         self.credulous = set()  # services that refused none of the bad requests
         self.warm_since = None  # time of the clock from which memory is measured [s]
+        self.rests = []         # begin and end of the times in which it is measured [s]
 
     def add(self, fault, node, words, took):
         self.injected[fault] += 1

@@ -1,6 +1,7 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Good requests and messages at random times, as users and their programs send them."""
+import contextlib
 import math
 import threading
 
@@ -28,6 +29,7 @@ class Visitors(threading.Thread):
         self.sent = self.refused = self.unanswered = 0
         self._clock, self._random, self._ended = clock, random, threading.Event()
         self._walkers, self._grabs = [], []
+        self._rests = threading.Lock()  # held while nothing is sent
         self._viewer = rospy.Publisher('/viewer', Viewer, queue_size=10)
         self._tread = rospy.Publisher('/tread', TreadEvent, queue_size=100)
         self._visits = (self.spawn, self.send_walkers, self.tread, self.clear, self.blow, self.push,
@@ -35,12 +37,26 @@ class Visitors(threading.Thread):
 
     def run(self):
         while not self._ended.wait(self._random.uniform(*PERIODS)):
-            visit = self._random.choice(self._visits)
-            try:
-                visit()
-                self.sent += 1
-            except (rospy.ServiceException, rospy.ROSException):
-                self.unanswered += 1
+            with self._rests:
+                self._send(self._random.choice(self._visits))
+
+    def _send(self, visit):
+        try:
+            visit()
+            self.sent += 1
+        except (rospy.ServiceException, rospy.ROSException):
+            self.unanswered += 1
+
+    @contextlib.contextmanager
+    def rest(self):
+        """Sends nothing meanwhile, after the branch that is held was released and the people who
+        were spawned were removed."""
+        with self._rests:
+            if self._grabs:
+                self._send(self.grab)
+            if self._walkers:
+                self._send(self.remove_walkers)
+            yield
 
     def stop(self):
         self._ended.set()
@@ -56,12 +72,15 @@ class Visitors(threading.Thread):
 
     def spawn(self):
         if len(self._walkers) >= MOST_WALKERS:
-            self._call('/agent_crowd/remove', srv.RemoveAgents, ids=self._walkers)
-            self._walkers = []
+            self.remove_walkers()
             return
         like = AgentSpawn(position=self._place())
         self._walkers += self._call('/agent_crowd/spawn', srv.SpawnAgents, like=like, count=2,
                                     spread=1.0).ids
+
+    def remove_walkers(self):
+        self._call('/agent_crowd/remove', srv.RemoveAgents, ids=self._walkers)
+        self._walkers = []
 
     def send_walkers(self):
         if self._walkers:

@@ -12,7 +12,6 @@ from raw_messages import publisher_of, stamp_of
 from scene import NANOSECONDS, NODES, TICKS
 
 PERIOD = 1.0     # [s] of wall time between two looks at the memory
-WINDOW = 60.0    # [s] of simulated time, of which the least memory counts
 USED_MEMORY = 'Memory in use [B]'  # of the diagnostics
 LONG_GAP = 0.15  # [s] of simulated time; shorter gaps are not kept
 
@@ -47,13 +46,11 @@ def trend_of(points):
     return Trend(slope, error, points[-1][0] - points[0][0])
 
 
-def floors_of(samples):
-    """Returns the least of the (time, value) samples of each whole window. Nodes keep up to
+def floors_of(samples, windows):
+    """Returns the least of the (time, value) samples in each window. Nodes keep up to
     MOST_FREED_MEMORY of freed memory, which comes and goes; what they hold is the floor."""
-    windows = {}
-    for at, value in samples:
-        windows.setdefault(int((at - samples[0][0]) / WINDOW), []).append((value, at))
-    return [(at, value) for value, at in (min(windows[key]) for key in sorted(windows)[:-1])]
+    within = [[(value, at) for at, value in samples if begin <= at <= end] for begin, end in windows]
+    return [(at, value) for value, at in map(min, filter(None, within))]
 
 
 class MemoryWatch(threading.Thread):
@@ -94,13 +91,12 @@ class MemoryWatch(threading.Thread):
                 for at, process, size in samples:
                     file.write('%s,%s,%.3f,%d,%d\n' % (node, kind, at, process, size))
 
-    def trend(self, node, kind, begin):
-        """Returns the trend [bytes/h of simulated time] of the last process of a node after the
-        time `begin`: that of the least memory in each of equal windows of time."""
+    def trend(self, node, kind, windows):
+        """Returns the trend [bytes/h of simulated time] of the last process of a node: that of the
+        least memory in each of these times."""
         samples = self.samples[node, kind]
         return trend_of([(at / 3600.0, size) for at, size in floors_of(
-            [(at, size) for at, process, size in samples
-             if process == samples[-1][1] and at >= begin])])
+            [(at, size) for at, process, size in samples if process == samples[-1][1]], windows)])
 
 
 class TickWatch:
