@@ -5,8 +5,8 @@
 # topics have second publishers. Checks memory, gaps between ticks, whether the diagnostics name each
 # fault, and the final hashes against replays of the accepted events in quiet. To be run before a
 # release; an hour of simulated time takes 26 minutes on two busy cores. Nodes are killed in the first
-# third only, while all other faults go on. Memory is measured once each of these has met the last
-# processes, since every kind of flood needs its memory once.
+# third only, while all other faults go on. Once each of these has met the last processes, since every
+# kind of flood needs its memory once, nodes rest now and then, and memory is measured meanwhile.
 # usage: scripts/test_chaos.sh [SECONDS [SEED [FACTOR]]]  of simulated time (3600), of the faults (1),
 # and the speed of the clock relative to real time (3)
 set -euo pipefail
