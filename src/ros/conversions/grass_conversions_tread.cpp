@@ -3,6 +3,7 @@
 #include "ros/conversions/optional_numbers.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/grass_conversions.h"
+#include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
 
