@@ -276,8 +276,8 @@ TEST(HandOver, FromProceduralTheMotionIsKeptAtFirst) {
         phase, jump.angle, jump.rate, 100.0 * off.first, 100.0 * off.last);
     EXPECT_LT(jump.angle, LARGEST_JUMP);
     EXPECT_LT(jump.rate, 0.01);
-    EXPECT_LT(off.first, 0.002);
-    EXPECT_LT(off.last, 0.7);
+    EXPECT_LT(off.first, 0.0003);
+    EXPECT_LT(off.last, 0.08);
     EXPECT_GT(off.last, off.first);  // it does not stay procedural
   }
 }
