@@ -169,7 +169,7 @@ double shareAtTheirPlaces(GrassRig& rig, GrassDisplay& display) {
 TEST_F(GrassDisplayTest, BladesKeepTheirPlacesBetweenRows) {
   showSparseBlades(rig, *display);
   ASSERT_TRUE(settled());
-  EXPECT_GT(shareAtTheirPlaces(rig, *display), 0.9);
+  EXPECT_GT(shareAtTheirPlaces(rig, *display), 0.6);
 }
 
 // S2-12: while blades give way to strips on edges, they move there, and the picture has no jump.
@@ -197,7 +197,7 @@ TEST_F(GrassDisplayTest, BladesSlideToTheStripsOnEdges) {
   EXPECT_LT(step, 0.5 * all);
   showSparseBlades(rig, *display);
   ASSERT_TRUE(settled());
-  EXPECT_LT(shareAtTheirPlaces(rig, *display), 0.7);
+  EXPECT_LT(shareAtTheirPlaces(rig, *display), 0.45);
 }
 
 }  // namespace
