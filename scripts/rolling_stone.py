@@ -16,7 +16,6 @@ import math
 import rospy
 from geometry_msgs.msg import Point, Pose, TransformStamped, Twist
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
-from std_msgs.msg import ColorRGBA
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import Ground
 from visualization_msgs.msg import (InteractiveMarker, InteractiveMarkerControl,
@@ -26,7 +25,7 @@ RATE = 50.0  # [Hz]
 RADIUS = 0.45  # [m]
 WIDE, DEEP, PERIOD = 9.0, 5.0, 40.0  # Half axes of the curve [m] and time of one round [s].
 SIZES = (1.0, 0.88, 0.94)  # Diameters of the stone along its axes, relative to 2 RADIUS.
-ROUGHNESS = 0.05  # of the surface that is drawn, relative to RADIUS
+ROUGHNESS = 0.12  # of the surface that is drawn, relative to RADIUS
 SPLITS = 3  # of each face of the octahedron from which the surface is made
 MARKER_PERIOD = 1.0  # [s]
 TOP_SPEED = 3.0  # [m/s]
@@ -96,14 +95,10 @@ def sphere_faces(splits):
 
 
 def surface_at(direction):
-    """Returns the point of the stone in a direction, within its ellipsoid, and its colour."""
-    rough = 0.7 * waves(direction, 2.6) + 0.3 * waves(direction, 8.0)
+    """Returns the point of the stone in a direction, within its ellipsoid."""
+    rough = 0.6 * waves(direction, 2.6) + 0.4 * waves(direction, 8.0)
     reach = RADIUS * (1.0 - ROUGHNESS * (1.0 - rough))
-    moss = max(0.0, waves(direction, 1.9) + 0.4 * waves(direction, 11.0) - 0.1)
-    grey = 0.40 + 0.10 * rough + 0.05 * waves(direction, 17.0)
-    return (Point(*(reach * size * part for size, part in zip(SIZES, direction))),
-            ColorRGBA(grey * (1.04 - 0.5 * moss), grey * (1.0 - 0.2 * moss),
-                      grey * (0.93 - 0.7 * moss), 1.0))
+    return Point(*(reach * size * part for size, part in zip(SIZES, direction)))
 
 
 class RollingStone:
@@ -209,10 +204,9 @@ class RollingStone:
         out = Marker(ns='stone', type=Marker.TRIANGLE_LIST, frame_locked=True)
         out.header.frame_id, out.pose.orientation.w = 'stone', 1.0
         out.scale.x = out.scale.y = out.scale.z = 1.0
-        for face in sphere_faces(SPLITS):
-            for point, color in map(surface_at, face):
-                out.points.append(point)
-                out.colors.append(color)
+        # Faces of one colour are lit; rviz does not light those with colours of their own.
+        out.color.r, out.color.g, out.color.b, out.color.a = 0.46, 0.44, 0.41, 1.0
+        out.points = [surface_at(corner) for face in sphere_faces(SPLITS) for corner in face]
         return out
 
     def handle(self):
