@@ -117,7 +117,7 @@ def write_cushion():
     z = 1.0 - (numpy.arange(CELLS // 2) + 0.5) / (CELLS // 2)
     for number in range(SLICES):
         y = (number + 0.5) / SLICES * 2.0 - 1.0
-        density = numpy.zeros((CELLS // 2, CELLS))
+        density = numpy.full((CELLS // 2, CELLS), -1.0)
         for cx, cy, cz, radius in tufts:
             square = (x[None, :] - cx) ** 2 + (y - cy) ** 2 + (1.3 * (z[:, None] - cz)) ** 2
             density = numpy.maximum(density, 1.0 - square / radius ** 2)
