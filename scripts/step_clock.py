@@ -26,14 +26,14 @@ class StepClock:
 
     def step(self, request):
         if not 1 <= request.ticks <= MOST_TICKS:
-            return refusal(StepResponse, ErrorCode.INVALID_VALUE, 'ticks = %d is outside 1 to %d' % (
+            return refusal(ErrorCode.INVALID_VALUE, 'ticks = %d is outside 1 to %d' % (
                 request.ticks, MOST_TICKS))
         try:
             with self._lock:
                 states = self._simulation.step(request.ticks)
                 tick, stamp = self._simulation.tick, self._simulation.stamp()
         except VegetationError as error:
-            return refusal(StepResponse, ErrorCode.NOT_AVAILABLE, str(error))
+            return refusal(ErrorCode.NOT_AVAILABLE, str(error))
         topics = sorted(states)
         return StepResponse(success=True, message='tick %d' % tick, stamp=stamp, topics=topics,
                             hashes=[states[topic].hash for topic in topics])
@@ -47,8 +47,8 @@ class StepClock:
             return TriggerResponse(success=False, message=str(error))
 
 
-def refusal(response, code, text):
-    return response(success=False, error_code=code, message=text)
+def refusal(code, text):
+    return StepResponse(success=False, error_code=code, message=text)
 
 
 def number(name, default, low, high, kinds=(int, float)):
