@@ -31,9 +31,10 @@ SENSOR = 'vegetation_scanner'
 IGNORED = 'Messages of other viewers'
 WARM_ROUNDS = 1       # of all faults after the last kill, before memory is measured
 PAUSES = 0.2, 1.5     # [s] of wall time between two faults
-REST_PERIOD = 240.0   # [s] of simulated time between two rests, in which memory is measured
-SETTLING = 40.0       # [s] of simulated time until what was sent before a rest has ended
-REST = 70.0           # duration of a rest [s] of simulated time
+REST_PERIOD = 140.0   # [s] of simulated time between two rests, in which memory is measured
+SETTLING = 80.0       # [s] of simulated time until the robot has parked, and what was sent
+                      # before a rest has ended
+REST = 110.0          # duration of a rest [s] of simulated time
 
 
 def pause(seconds):
@@ -79,12 +80,15 @@ class Faults:
         return not rests or self._rig.clock.now >= rests[-1][1] + REST_PERIOD
 
     def _rest(self):
-        """Lets the nodes rest, so that they hold what they keep for good."""
+        """Lets the nodes rest, so that they hold what they keep for good. The robot parks at the same
+        place each time: what the forest holds depends on the trees that it perceives and touches."""
         clock, begin = self._rig.clock, self._rig.clock.now
         print('%.1f s: rest' % begin, flush=True)
+        self._rig.robot.parks = True
         with self._rig.visitors.rest():
             while clock.now < begin + REST:
                 pause(0.1)
+        self._rig.robot.parks = False
         self.outcomes.rests.append((begin + SETTLING, clock.now))
 
     def _shuffled(self):

@@ -22,10 +22,12 @@ def _quaternion(yaw):
 
 
 class Robot:
-    """Publishes tf and odometry while it is not lost."""
+    """Publishes tf and odometry while it is not lost. While it parks, it waits where the next round
+    begins, and there its arm touches nothing."""
 
     def __init__(self):
-        self.lost = False
+        self.lost = self.parks = False
+        self._driven = 0.0  # duration of its drive [s]
         self._last = 0.0
         self._tf = publisher('/tf', TFMessage)
         self._odometry = publisher('/odom', Odometry)
@@ -33,15 +35,22 @@ class Robot:
     def publish(self, now):
         if self.lost or now - self._last < 1.0 / RATE:
             return
+        self._drive(now - self._last if self._last else 0.0)
         self._last = now
         stamp = rospy.Time(0, int(now * NANOSECONDS))
-        angle = 2.0 * math.pi * now / TURN
+        angle = 2.0 * math.pi * self._driven / TURN
         x, y = CENTRE[0] + HALF[0] * math.cos(angle), CENTRE[1] + HALF[1] * math.sin(angle)
         yaw = math.atan2(HALF[1] * math.cos(angle), -HALF[0] * math.sin(angle))
         frames = [self._frame('map', 'base_link', (x, y, 0.0), yaw, stamp)]
         frames += [self._frame('base_link', part, place, 0.0, stamp) for part, place in PARTS.items()]
         self._tf.publish(TFMessage(frames))
         self._publish_odometry(x, y, yaw, stamp)
+
+    def _drive(self, duration):
+        round_ends = TURN * math.ceil(self._driven / TURN)
+        self._driven += duration
+        if self.parks:
+            self._driven = min(self._driven, round_ends)
 
     @staticmethod
     def _frame(parent, child, place, yaw, stamp):

@@ -14,6 +14,7 @@ from vegetation_sim.msg import AgentSpawn, TreadEvent, Viewer, WindPrimitive
 
 PERIODS = 0.2, 1.0     # [s] of wall time between two requests
 MOST_WALKERS = 12
+FANS = 'fan_0', 'fan_1', 'fan_2'
 SETTINGS = (('forest_animator', 'robot_tolerance', 0.02, 0.1),
             ('grass_field', 'tread_recovery', 20.0, 90.0),
             ('canopy_animator', 'frequency', 0.8, 2.0),
@@ -49,13 +50,17 @@ class Visitors(threading.Thread):
 
     @contextlib.contextmanager
     def rest(self):
-        """Sends nothing meanwhile, after the branch that is held was released and the people who
-        were spawned were removed."""
+        """Sends nothing meanwhile, after all that lasts was undone. The memory of nodes depends on
+        it: in a stronger wind the forest simulates its trees in more detail."""
         with self._rests:
             if self._grabs:
                 self._send(self.grab)
             if self._walkers:
                 self._send(self.remove_walkers)
+            for fan in FANS:
+                self._send(lambda name=fan: self.remove_fan(name))
+            for node, name, low, _ in SETTINGS:
+                self._send(lambda value=(node, name, low): self.set_parameter(*value))
             yield
 
     def stop(self):
@@ -95,14 +100,17 @@ class Visitors(threading.Thread):
                    centre=PointStamped(point=self._place()))
 
     def blow(self):
-        name = 'fan_%d' % self._random.randrange(3)
+        name = self._random.choice(FANS)
         if self._random.random() < 0.3:
-            self._call('/wind_broadcaster/remove_primitive', srv.RemoveWindPrimitive, name=name)
+            self.remove_fan(name)
             return
         source = WindPrimitive(name=name, kind=WindPrimitive.DISK, radius=20.0, omega=3.0,
                                velocity=Vector3(self._random.uniform(1, 6), 0.0, 0.0),
                                fade_in=0.5, fade_out=0.5)
         self._call('/wind_broadcaster/set_primitive', srv.SetWindPrimitive, primitive=source)
+
+    def remove_fan(self, name):
+        self._call('/wind_broadcaster/remove_primitive', srv.RemoveWindPrimitive, name=name)
 
     def push(self):
         force = Vector3Stamped(vector=Vector3(self._random.uniform(-40, 40), 0.0, 0.0))
@@ -127,8 +135,11 @@ class Visitors(threading.Thread):
 
     def tune(self):
         node, name, low, high = self._random.choice(SETTINGS)
-        value = DoubleParameter(name, self._random.uniform(low, high))
-        self._call('/%s/set_parameters' % node, Reconfigure, config=Config(doubles=[value]))
+        self.set_parameter(node, name, self._random.uniform(low, high))
+
+    def set_parameter(self, node, name, value):
+        self._call('/%s/set_parameters' % node, Reconfigure,
+                   config=Config(doubles=[DoubleParameter(name, value)]))
 
     def sample(self):
         place = self._place()
