@@ -39,7 +39,7 @@ fuzz_target() {
   # assimp does not free the materials of some damaged files.
   [ "$target" != mesh ] || arguments+=(-detect_leaks=0)
   ASAN_OPTIONS=quarantine_size_mb=16 "$PROGRAM" --target="$target" -max_total_time="$seconds" \
-    -timeout=5 -rss_limit_mb=2048 -malloc_limit_mb=256 -max_len=20000 -print_final_stats=1 -verbosity=1 \
+    -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=256 -max_len=20000 -print_final_stats=1 -verbosity=1 \
     -artifact_prefix="$FUZZ/found/${target}_" "${arguments[@]}" >"$log" 2>&1 || status=FAILED
   awk -v name="$target" -v status=$status '
     / cov: / { for (i = 1; i <= NF; ++i) { if ($i == "cov:") edges = $(i + 1); if ($i == "corp:") corpus = $(i + 1) } }

@@ -63,7 +63,11 @@ void joinCover(const GrassCoverPart& part) {
   CoverJoin join(2);
   const Nanoseconds stamp = fromMsg(part.header.stamp);
   join.begin(untrodden(stamp), 1.0);
-  join.add(part);
+  try {
+    join.add(part);
+  } catch (const InvalidInput&) {
+    return;
+  }
   if (const auto map = join.take()) requireFinite(map->resistance, "resistance of grass");
 }
 
