@@ -42,7 +42,7 @@ void CanopyDisplay::updateLook() {
   if (canopy_) canopy_->repaint();
 }
 
-// Leaves are lit when they are grown, so they are grown again for another sun.
+// Leaves are lit when they are grown, so they are grown again for another sun or other trees.
 void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
   if (daylight.to_sun != to_sun_) layouts_ = 0;
   to_sun_ = daylight.to_sun;
@@ -52,8 +52,9 @@ void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze
 
 void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
   source_->updateCrowns();
-  if (!canopy_ || layouts_ != source_->layouts()) {
+  if (!canopy_ || layouts_ != source_->layouts() || lights_ != view::SharedLight::changes()) {
     layouts_ = source_->layouts();
+    lights_ = view::SharedLight::changes();
     dropGround();
     canopy_.reset();
     canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);

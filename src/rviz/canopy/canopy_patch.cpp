@@ -99,6 +99,8 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, std::vector<std::size_t> 
     : plants_(std::move(plants)),
       heights_(std::move(heights)),
       textures_(scene.textures),
+      scene_(scene.node->getCreator()),
+      frame_(scene.frame),
       origin_(scene.origin),
       leaf_batch_(uniqueName("canopy_leaves"), scene.leaf_material),
       stem_batch_(uniqueName("canopy_stems"), scene.stem_material) {
@@ -112,6 +114,8 @@ CanopyPatch::CanopyPatch(const canopy::Layout& layout, const LeafedCrowns::Crown
                          std::size_t number, const PatchScene& scene)
     : crown_(number),
       textures_(scene.textures),
+      scene_(scene.node->getCreator()),
+      frame_(scene.frame),
       origin_(scene.origin),
       middle_(0.5 * (crown.box.low + crown.box.high)),
       reach_(0.5 * length(Vec3(crown.box.high - crown.box.low))),
@@ -192,9 +196,11 @@ void CanopyPatch::addRigid(const canopy::GrownPlant& grown, const canopy::PlantK
     for (const Vec3& at : {Vec3(face.root - low), Vec3(face.root + low), Vec3(face.tip - high),
                            Vec3(face.tip + high)}) {
       for (int k = 0; k < 3; ++k) stem_positions_.push_back(static_cast<float>(at[k] - origin_[k]));
-      VertexPaint paint{{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.1f, 0.f, face.light}};
+      const SharedLight::Shares around = lightAt(face.root);
+      VertexPaint paint{
+          {0.f, 0.f, 1.f}, {0, 0, 0, 255}, {0.1f, 0.f, float(around.sky) * face.light}};
       setNormal(normal, paint);
-      setColour(1.3 * colour, static_cast<double>(face.light), paint);
+      setColour(1.3 * colour, around.sun * static_cast<double>(face.light), paint);
       stem_paint_.push_back(paint);
     }
     // Both sides are drawn because the outer side is unknown.
@@ -212,6 +218,7 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
                         Vec3::UnitY());
     const Vec3 v = cross(along, u);
     const auto first = static_cast<std::uint32_t>(stem_paint_.size());
+    const SharedLight::Shares around = lightAt(stem.from);
     for (int i = 0; i < 2 * (STEM_SIDES + 1); ++i) {
       const bool top = i > STEM_SIDES;
       const double turns = static_cast<double>(i % (STEM_SIDES + 1)) / STEM_SIDES;
@@ -222,7 +229,8 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
       for (int k = 0; k < 3; ++k) stem_positions_.push_back(static_cast<float>(at[k]));
       VertexPaint paint{{0.f, 0.f, 1.f}, {255, 255, 255, 255}, {0.f, 0.f, top ? 0.35f : 0.6f}};
       setNormal(normal, paint);
-      setColour(1.3 * colour, top ? 0.25 : 0.6, paint);
+      setColour(1.3 * colour, around.sun * (top ? 0.25 : 0.6), paint);
+      paint.place[2] *= float(around.sky);
       paint.place[0] = static_cast<float>(0.25 * turns);
       paint.place[1] = static_cast<float>(top ? 0.5 * length(stem.to - stem.from) : 0.0);
       stem_paint_.push_back(paint);
@@ -234,9 +242,23 @@ void CanopyPatch::addStems(const canopy::GrownPlant& grown, const Vec3& colour) 
   }
 }
 
-// Inner leaves are darker: sunlight is absorbed along the path through the leaves.
+// The light of crowns that hang in trees is that among the trees already.
+SharedLight::Shares CanopyPatch::lightAt(const Vec3& place) const {
+  return crown_ ? SharedLight::Shares() : SharedLight::at(scene_, frame_, place);
+}
+
 VertexPaint CanopyPatch::paintOf(const canopy::Layout& layout, const Drawn& drawn,
                                  const Vec3& to_sun) const {
+  VertexPaint out = ownPaintOf(layout, drawn, to_sun);
+  const SharedLight::Shares around = lightAt(drawn.leaf.root);
+  out.colour[3] = static_cast<std::uint8_t>(around.sun * out.colour[3]);
+  out.place[2] *= static_cast<float>(around.sky);
+  return out;
+}
+
+// Inner leaves are darker: sunlight is absorbed along the path through the leaves.
+VertexPaint CanopyPatch::ownPaintOf(const canopy::Layout& layout, const Drawn& drawn,
+                                    const Vec3& to_sun) const {
   const canopy::PlantKind& kind = layout.kinds[drawn.kind];
   const Vec3 along = unit(drawn.leaf.tip - drawn.leaf.root, Vec3::UnitZ());
   const Vec3 across = unit(drawn.leaf.side, Vec3::UnitX());

@@ -14,6 +14,7 @@
 #include "rviz/render/batch.h"
 #include "rviz/textures/foliage_texture.h"
 #include "rviz/textures/sky_texture.h"
+#include "rviz/trees/shared_light.h"
 #include "vegetation_sim/canopy/canopy.h"
 
 namespace vegetation_sim::view {
@@ -25,6 +26,7 @@ struct PatchScene {
   std::string leaf_material, stem_material;
   Vec3 to_sun;
   const PlantTextures* textures;
+  std::string frame;  ///< of the layout
 };
 
 /// Neighbouring plants, or a crown of the forest, in two batches of leaves and stems. The outer
@@ -111,8 +113,11 @@ class CanopyPatch {
   void bendStems(const canopy::Foliage& foliage);
   void addStems(const canopy::GrownPlant& grown, const Vec3& colour);
   void addRigid(const canopy::GrownPlant& grown, const canopy::PlantKind& kind, std::size_t number);
+  SharedLight::Shares lightAt(const Vec3& place) const;
   std::array<float, 2> placeOf(const canopy::Layout& layout, const Drawn& drawn, int corner) const;
   VertexPaint paintOf(const canopy::Layout& layout, const Drawn& drawn, const Vec3& to_sun) const;
+  VertexPaint ownPaintOf(const canopy::Layout& layout, const Drawn& drawn,
+                         const Vec3& to_sun) const;
   void build(const canopy::Layout& layout, const Vec3& to_sun);
   std::vector<float> placeAtRest(const std::vector<const Drawn*>& leaves) const;
 
@@ -120,6 +125,8 @@ class CanopyPatch {
   std::vector<std::size_t> plants_;
   std::vector<double> heights_;  // at which the plants have been cut [m]
   const PlantTextures* textures_;
+  const Ogre::SceneManager* scene_;
+  std::string frame_;
   Vec3 origin_, middle_{Vec3::Zero()};
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;

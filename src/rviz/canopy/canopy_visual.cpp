@@ -64,7 +64,8 @@ bool touch(const Extent& a, const Extent& b) {
 
 CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy,
                            const Vec3& to_sun)
-    : to_sun_(to_sun),
+    : frame_(canopy.frame()),
+      to_sun_(to_sun),
       node_(parent.createChildSceneNode()),
       textures_(canopy.replica()->layout()),
       leaf_texture_(uniqueName("foliage_picture"),
@@ -92,7 +93,8 @@ CanopyVisual::CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& cano
 }
 
 PatchScene CanopyVisual::patchScene() const {
-  return {origin_, node_, leaf_material_.name(), stem_material_.name(), to_sun_, &textures_};
+  return {origin_,    node_, leaf_material_.name(), stem_material_.name(), to_sun_,
+          &textures_, frame_};
 }
 
 // Leaf by leaf, plants that are read from files have together at most MOST_READ_LEAVES leaves,

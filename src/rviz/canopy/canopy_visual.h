@@ -38,6 +38,7 @@ class CanopyVisual {
   };
 
   /// @param parent node in the frame of the layout. @param canopy with a layout.
+  /// Plants among trees have the light that is shared when they are made.
   CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy, const Vec3& to_sun);
   ~CanopyVisual();
   CanopyVisual(const CanopyVisual&) = delete;
@@ -72,6 +73,7 @@ class CanopyVisual {
                                           const LayerImages::Options& options);
   std::vector<CanopyPatch*> inPicture(const View& view, bool bent) const;
 
+  std::string frame_;
   Vec3 to_sun_;
   canopy::Layout layout_, thinned_;
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us

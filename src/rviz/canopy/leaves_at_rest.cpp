@@ -74,7 +74,7 @@ const LeavesAtRest::Form& LeavesAtRest::formOf(std::size_t kind) {
   out.layout->plants[0].kind = static_cast<std::uint16_t>(kind);
   out.plant = std::make_unique<CanopyPatch>(
       *out.layout, std::vector<std::size_t>{0}, std::vector<double>{canopy::UNCUT},
-      PatchScene{Vec3::Zero(), hidden_, material_, material_, to_sun_, &textures_});
+      PatchScene{Vec3::Zero(), hidden_, material_, material_, to_sun_, &textures_, {}});
   out.batch = out.plant->copyAtRest(*hidden_, material_, CanopyPatch::Share::ALIKE);
   return out;
 }

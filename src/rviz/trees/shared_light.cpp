@@ -14,17 +14,28 @@ std::vector<const SharedLight*>& allLights() {
   return lights;
 }
 
+int& countOfChanges() {
+  static int count = 0;
+  return count;
+}
+
 }  // namespace
 
 SharedLight::SharedLight(const Ogre::SceneManager* scene, std::string frame,
                          std::shared_ptr<const forest::LightGrid> grid)
     : scene_(scene), frame_(std::move(frame)), grid_(std::move(grid)) {
   allLights().push_back(this);
+  ++countOfChanges();
 }
 
 SharedLight::~SharedLight() {
   std::vector<const SharedLight*>& all = allLights();
   all.erase(std::remove(all.begin(), all.end(), this), all.end());
+  ++countOfChanges();
+}
+
+int SharedLight::changes() {
+  return countOfChanges();
 }
 
 SharedLight::Shares SharedLight::at(const Ogre::SceneManager* scene, const std::string& frame,

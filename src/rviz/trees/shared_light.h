@@ -31,6 +31,8 @@ class SharedLight {
   /// Returns the light at a place in a frame, through the trees of all displays of the scene that
   /// are in this frame.
   static Shares at(const Ogre::SceneManager* scene, const std::string& frame, const Vec3& place);
+  /// Number of times that light was shared, or no longer shared, in any scene.
+  static int changes();
 
  private:
   const Ogre::SceneManager* scene_;
