@@ -189,7 +189,7 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   vertex.setNamedConstant("zenith_light", narrow(daylight.zenith_light));
   vertex.setNamedConstant("ground_light", narrow(daylight.ground_light));
   const bool leaves = kind_ == Kind::LEAVES;
-  vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.5f, 0.8f, 0.75f, 0.f)
+  vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.5f, 0.8f, 0.75f, 0.14f)
                                          : Ogre::Vector4(0.15f, 0.f, 0.55f, 0.f));
 }
 

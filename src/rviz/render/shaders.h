@@ -19,7 +19,7 @@ uniform vec4 eye;           // in the object's frame
 uniform vec4 to_sun;        // in the object's frame
 uniform vec4 sun, zenith_light, ground_light;
 uniform vec4 haze;          // start, 1 / length, most
-uniform vec4 leaf;          // light that wraps around, shines through, is scattered inside
+uniform vec4 leaf;          // light that wraps around, shines through; sky and sun inside crowns
 varying vec4 light;         // w: haze
 varying vec2 place;
 #ifdef FADING
@@ -53,7 +53,9 @@ void main() {
   float facing = (dot(normal, to_sun.xyz) + leaf.x) / (1.0 + leaf.x);
   float against = max(dot(view / far, to_sun.xyz), 0.0);
   float through = leaf.y * (0.25 + against * against * against);
-  vec3 direct = sun.rgb * gl_Color.a * (max(facing, 0.0) + through);
+  // Leaves in shade get light that other leaves have scattered.
+  float reached = gl_Color.a * (max(facing, 0.0) + through) + (1.0 - gl_Color.a) * leaf.w;
+  vec3 direct = sun.rgb * reached;
   vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * normal.z);
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
