@@ -42,7 +42,7 @@ void CanopyDisplay::updateLook() {
   if (canopy_) canopy_->repaint();
 }
 
-// Leaves are lit when they are grown, so they are grown again for another sun or other trees.
+// Leaves are lit when they are grown, so they are grown again for another sun.
 void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze) {
   if (daylight.to_sun != to_sun_) layouts_ = 0;
   to_sun_ = daylight.to_sun;
@@ -52,9 +52,8 @@ void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze
 
 void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
   source_->updateCrowns();
-  if (!canopy_ || layouts_ != source_->layouts() || lights_ != view::SharedLight::changes()) {
+  if (!canopy_ || layouts_ != source_->layouts()) {
     layouts_ = source_->layouts();
-    lights_ = view::SharedLight::changes();
     dropGround();
     canopy_.reset();
     canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);

@@ -50,7 +50,6 @@ class CanopyDisplay : public SceneryDisplay {
   Vec3 to_sun_{Vec3::Zero()};  // for which leaves are lit
   FeedbackBudget feedback_;    // of leaves
   int layouts_{0};
-  int lights_{0};  // SharedLight::changes() when the plants were made
 };
 
 }  // namespace vegetation_sim

@@ -19,6 +19,7 @@ constexpr double WIDEST = 4.0;       // largest factor of the width of leaves
 constexpr double PUFF_SIZE = 2.4;    // of a puff relative to a leaf
 constexpr double CLOUD_LIGHT = 0.3;  // least share of sunlight in a cloud
 constexpr double MARGIN = 1.0;       // [m] around the bounding box
+constexpr double SEEN = 0.02;        // least change of the share of light that is drawn
 
 // Joined pieces have their own outline, others that of a texture.
 LeafCut cutOf(const canopy::PlantKind& kind, const canopy::Leaf& leaf) {
@@ -149,6 +150,15 @@ bool CanopyPatch::isOutdated(const canopy::Replica& canopy) const {
   return false;
 }
 
+bool CanopyPatch::isInOtherLight() const {
+  for (std::size_t i = 0; i < tops_.size(); ++i) {
+    const SharedLight::Shares now = lightAt(tops_[i]);
+    if (std::fabs(now.sun - light_[i].sun) > SEEN || std::fabs(now.sky - light_[i].sky) > SEEN)
+      return true;
+  }
+  return false;
+}
+
 void CanopyPatch::setRank(int rank) {
   leaf_batch_.setRank(rank);
   stem_batch_.setRank(rank);
@@ -174,6 +184,8 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
     leaves_.push_back({leaf, plant, p.kind, inBall(layout, plant, leaf.root), cutOf(kind, leaf),
                        share, static_cast<float>(rank) / static_cast<float>(count)});
   }
+  tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
+  light_.push_back(lightAt(tops_.back()));
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind, p.kind);
   stem_owners_.resize(stem_paint_.size(), plant);

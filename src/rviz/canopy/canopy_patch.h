@@ -47,6 +47,9 @@ class CanopyPatch {
   const std::vector<std::size_t>& plants() const { return plants_; }
   /// Returns whether plants have been cut, or restored, since the patch was made.
   bool isOutdated(const canopy::Replica& canopy) const;
+  /// Returns whether trees that other displays show give plants another light than when the patch
+  /// was made.
+  bool isInOtherLight() const;
   const Vec3& middle() const { return middle_; }
   double reach() const { return reach_; }         ///< [m] radius around the middle
   double tallest() const { return tallest_; }     ///< [m] height of the tallest plant
@@ -123,7 +126,9 @@ class CanopyPatch {
 
   std::optional<std::size_t> crown_;
   std::vector<std::size_t> plants_;
-  std::vector<double> heights_;  // at which the plants have been cut [m]
+  std::vector<double> heights_;             // at which the plants have been cut [m]
+  std::vector<Vec3> tops_;                  // of the plants
+  std::vector<SharedLight::Shares> light_;  // at the tops when the patch was made
   const PlantTextures* textures_;
   const Ogre::SceneManager* scene_;
   std::string frame_;

@@ -136,15 +136,16 @@ std::unique_ptr<CanopyPatch> CanopyVisual::patchOf(const canopy::Replica& canopy
   return std::make_unique<CanopyPatch>(thinned_, plants, heights, patchScene());
 }
 
-// Makes the patches anew in which plants have been cut.
-void CanopyVisual::updateCuts(const canopy::Replica& canopy) {
+// Makes the patches anew in which plants have been cut, or are in other light.
+void CanopyVisual::updatePatches(const canopy::Replica& canopy, bool relit) {
   for (std::unique_ptr<CanopyPatch>& patch : patches_) {
-    if (!patch->isOutdated(canopy)) continue;
+    const bool is_cut = patch->isOutdated(canopy);
+    if (!is_cut && !(relit && patch->isInOtherLight())) continue;
     if (images_) images_->dropPatches();
     report_.leaves -= patch->leafCount();
     patch = patchOf(canopy, patch->plants());
     report_.leaves += patch->leafCount();
-    cut_areas_.push_back(shadowOf(*patch));
+    if (is_cut) cut_areas_.push_back(shadowOf(*patch));
   }
 }
 
@@ -217,7 +218,8 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
                           const Options& options) {
   const bool swayed = report_.crowns > 0 && stamp != stamp_;
   const bool fades = images_ && images_->isBusy();
-  if (!swayed && !fades && changes_ == canopy.changes() && share_ == options.share &&
+  const bool relit = lights_ != SharedLight::changes();
+  if (!swayed && !fades && !relit && changes_ == canopy.changes() && share_ == options.share &&
       length(eye_ - view.eye.position) < STILL && length(forward_ - view.forward) < STILL)
     return;
   changes_ = canopy.changes();
@@ -225,7 +227,8 @@ void CanopyVisual::update(SubscribedCanopy& canopy, Nanoseconds stamp, const Vie
   stamp_ = stamp;
   eye_ = view.eye.position;
   forward_ = view.forward;
-  updateCuts(*canopy.replica());
+  lights_ = SharedLight::changes();
+  updatePatches(*canopy.replica(), relit);
   const canopy::Foliage& foliage = canopy.replica()->foliage();
   const std::vector<bool>& pictured = updatePictures(foliage, view, options.pictures);
   const std::vector<CanopyPatch*> seen = inPicture(view, foliage.anyBent());

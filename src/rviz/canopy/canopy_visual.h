@@ -38,7 +38,7 @@ class CanopyVisual {
   };
 
   /// @param parent node in the frame of the layout. @param canopy with a layout.
-  /// Plants among trees have the light that is shared when they are made.
+  /// Plants among trees have the light that other displays share.
   CanopyVisual(Ogre::SceneNode& parent, const SubscribedCanopy& canopy, const Vec3& to_sun);
   ~CanopyVisual();
   CanopyVisual(const CanopyVisual&) = delete;
@@ -67,7 +67,7 @@ class CanopyVisual {
   void add(std::unique_ptr<CanopyPatch> patch);
   std::unique_ptr<CanopyPatch> patchOf(const canopy::Replica& canopy,
                                        const std::vector<std::size_t>& plants) const;
-  void updateCuts(const canopy::Replica& canopy);
+  void updatePatches(const canopy::Replica& canopy, bool relit);
   Extent shadowOf(const CanopyPatch& patch) const;
   const std::vector<bool>& updatePictures(const canopy::Foliage& foliage, const View& view,
                                           const LayerImages::Options& options);
@@ -87,7 +87,7 @@ class CanopyVisual {
   Haze haze_;
   Extent extent_;
   std::vector<Extent> cut_areas_;
-  int changes_{-1};
+  int changes_{-1}, lights_{0};  // of the last update
   Nanoseconds stamp_{0};
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   double share_{1.0};  // of the last update
