@@ -32,14 +32,22 @@ struct Painter {
     at(Cover::HAT) = clothes.second;
   }
 
+  // A closed top has a seam.
+  void paintFront(Cover cover, Cover front, Cover lapel) const {
+    const bool open = clothes.pattern == Pattern::OPEN;
+    at(front) = open ? clothes.second : Vec3(0.93 * at(cover));
+    at(lapel) = (open ? 0.7 : 1.0) * at(cover);
+  }
+
   void paintTop() const {
     const Vec3 &shirt = clothes.shirt, &second = clothes.second;
     const bool open = clothes.pattern == Pattern::OPEN;
     at(Cover::SHIRT) = shirt;
     at(Cover::STRIPE) = clothes.pattern == Pattern::STRIPES ? second : shirt;
     at(Cover::YOKE) = clothes.pattern == Pattern::YOKE ? second : shirt;
-    at(Cover::FRONT) = open ? second : Vec3(0.93 * shirt);
-    at(Cover::LAPEL) = open ? Vec3(0.7 * shirt) : shirt;
+    paintFront(Cover::SHIRT, Cover::FRONT, Cover::LAPEL);
+    paintFront(Cover::STRIPE, Cover::STRIPE_FRONT, Cover::STRIPE_LAPEL);
+    paintFront(Cover::YOKE, Cover::YOKE_FRONT, Cover::YOKE_LAPEL);
     at(Cover::THROAT) = clothes.neckline == Neckline::OPEN ? clothes.skin
                         : open                             ? second
                                                            : at(Cover::YOKE);

@@ -23,8 +23,12 @@ enum class Cover : std::uint8_t {
   SHIRT,
   STRIPE,  ///< band around the trunk
   YOKE,    ///< over the shoulders
-  FRONT,   ///< where jackets are open
-  LAPEL,   ///< beside it
+  FRONT,   ///< of SHIRT, where jackets are open; the next two of STRIPE and YOKE
+  STRIPE_FRONT,
+  YOKE_FRONT,
+  LAPEL,  ///< of SHIRT, beside the front; the next two of STRIPE and YOKE
+  STRIPE_LAPEL,
+  YOKE_LAPEL,
   THROAT,  ///< where collars are open
   NOTCH,   ///< between the ends of a collar
   COLLAR,

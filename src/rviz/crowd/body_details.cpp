@@ -62,11 +62,12 @@ Cover trunkCover(const FormRing& ring, std::size_t column) {
   const bool middle = column == 0, front = column <= 1;
   switch (ring.cover) {
     case Cover::SHIRT:
-    case Cover::STRIPE:
       return middle ? Cover::FRONT : front ? Cover::LAPEL : ring.cover;
+    case Cover::STRIPE:
+      return middle ? Cover::STRIPE_FRONT : front ? Cover::STRIPE_LAPEL : ring.cover;
     case Cover::YOKE:
       if (ring.along > 0.29 ? front : middle && ring.along > 0.27) return Cover::THROAT;
-      return middle ? Cover::FRONT : front ? Cover::LAPEL : Cover::YOKE;
+      return middle ? Cover::YOKE_FRONT : front ? Cover::YOKE_LAPEL : ring.cover;
     case Cover::COLLAR:
       return middle || (front && ring.along < 0.315) ? Cover::NOTCH : Cover::COLLAR;
     case Cover::HEM:
@@ -158,7 +159,9 @@ Cover coverOf(Kind kind, const FormRing& ring, std::size_t vertex, double hairli
   if (kind == Kind::SHOE && vertex >= 1 && vertex <= 5) return Cover::SOLES;
   if (kind == Kind::TRUNK) return trunkCover(ring, column);
   if (kind != Kind::HEAD) return ring.cover;
-  if (ring.along > hairline + 0.006) return Cover::HAIR;
+  // Temples are bare up to the brows, next to which they are in small bodies.
+  const bool bare = column <= 3 && ring.along < 0.08 && hairline > 0.05;
+  if (ring.along > hairline + 0.006 && !bare) return Cover::HAIR;
   return isBearded(ring.along, column) ? Cover::BEARD : ring.cover;
 }
 

@@ -99,14 +99,14 @@ const FormRings& legRings(bool bare) {
 }
 
 const FormRings& shoeRings() {
-  static const FormRings RINGS = {{-0.018, 0.009, 0.010, 0.001, Cover::SHOES, true, 0.9},
+  static const FormRings RINGS = {{-0.018, 0.004, 0.006, 0.000, Cover::SHOES, true, 0.9},
                                   {-0.010, 0.020, 0.022, 0.004, Cover::SHOES},
                                   {0.012, 0.0235, 0.030, 0.012, Cover::SHOES, true},
                                   {0.040, 0.0250, 0.033, 0.015, Cover::SHOES},
                                   {0.075, 0.0270, 0.022, 0.004, Cover::SHOES, true},
                                   {0.105, 0.0285, 0.017, -0.001, Cover::SHOES},
                                   {0.127, 0.0215, 0.012, -0.006, Cover::SHOES, true},
-                                  {0.139, 0.0080, 0.006, -0.011, Cover::SHOES, true}};
+                                  {0.140, 0.0050, 0.004, -0.012, Cover::SHOES, true}};
   return RINGS;
 }
 
