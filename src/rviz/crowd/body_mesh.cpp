@@ -67,49 +67,51 @@ class SkinPose {
 /// Draws the skin of a body.
 class SkinWriter {
  public:
-  SkinWriter(const std::vector<SkinRing>& rings, const SkinPose& pose,
-             const crowd::Clothes& clothes, const BodyStyle& style, const Daylight& daylight,
-             const LightAt& light, grass::GrassMesh& mesh)
-      : rings_(rings),
-        pose_(pose),
-        clothes_(clothes),
+  SkinWriter(const SkinPose& pose, const crowd::Clothes& clothes, const BodyStyle& style,
+             const Daylight& daylight, const LightAt& light, grass::GrassMesh& mesh)
+      : pose_(pose),
+        colours_(coverColours(clothes)),
+        fullness_(2.0 * clothes.fullness - 1.0),
+        wide_(clothes.build > 0.5),
+        build_(std::fabs(2.0 * clothes.build - 1.0)),
         style_(style),
         daylight_(daylight),
         light_(light),
         mesh_(mesh) {}
 
-  void write() {
-    const std::size_t count = rings_.size();
+  void write(const SkinRings& rings) {
+    const std::size_t count = rings.size();
     for (std::size_t first = 0; first < count;) {
       std::size_t end = first + 1;
-      while (end < count && !rings_[end].begins) ++end;
-      writeTube(first, end);
+      while (end < count && !rings[end].begins) ++end;
+      writeTube(rings, first, end);
       first = end;
     }
   }
 
  private:
-  void writeTube(std::size_t first, std::size_t end) {
+  void writeTube(const SkinRings& rings, std::size_t first, std::size_t end) {
     bool joined = false;
     for (std::size_t i = first; i < end; ++i) {
-      if (rings_[i].fine && style_.rings <= 0.0) continue;
+      if (rings[i].fine && style_.rings <= 0.0) continue;
       const auto at = static_cast<std::uint32_t>(mesh_.vertexCount());
-      writeRing(cornersOf(i, first, end));
+      writeRing(cornersOf(rings, i, first, end));
       if (joined) join(at);
       joined = true;
     }
   }
 
   // A fine ring of a small body lies between its neighbours, so that nothing changes when it goes.
-  Corners cornersOf(std::size_t i, std::size_t first, std::size_t end) const {
-    const Corners own = posed(i);
-    if (!rings_[i].fine || style_.rings >= 1.0) return own;
+  Corners cornersOf(const SkinRings& rings, std::size_t i, std::size_t first,
+                    std::size_t end) const {
+    const Corners own = posed(rings[i]);
+    if (!rings[i].fine || style_.rings >= 1.0) return own;
     std::size_t before = i, after = i;
-    while (before > first && rings_[before].fine) --before;
-    while (after + 1 < end && rings_[after].fine) ++after;
-    if (rings_[before].fine) before = after;
-    if (rings_[after].fine) after = before;
-    const Corners a = posed(before), b = posed(after);
+    while (before > first && rings[before].fine) --before;
+    while (after + 1 < end && rings[after].fine) ++after;
+    if (rings[before].fine) before = after;
+    if (rings[after].fine) after = before;
+    const Corners a = posed(rings[before]), b = posed(rings[after]);
     const double share = after == before ? 0.0 : double(i - before) / double(after - before);
     Corners out;
     for (std::size_t k = 0; k < sides(); ++k)
@@ -117,18 +119,18 @@ class SkinWriter {
     return out;
   }
 
-  Corners posed(std::size_t i) const {
-    const SkinRing& ring = rings_[i];
+  Corners posed(const SkinRing& ring) const {
     const std::size_t stride = MOST_SIDES / sides();
     const SkinVertex& any = ring.vertices.front();
     const SharedLight::Shares shares = light_(pose_.positionOf(any, any.position));
     Corners out;
     for (std::size_t k = 0; k < sides(); ++k) {
       const SkinVertex& vertex = ring.vertices[k * stride];
-      Vec3 rest = vertex.position;
-      rest.y() *= 1.0 + vertex.girth * (clothes_.build - 0.5);
-      out[k] = {pose_.positionOf(vertex, rest), lit(pose_.normalOf(vertex), shares, vertex.open,
-                                                    CLOTH * vertex.shade * colourOf(vertex.cover))};
+      const Vec3 rest = vertex.position + fullness_ * vertex.full +
+                        build_ * (wide_ ? vertex.shoulders : vertex.hips);
+      const Vec3& colour = colours_[static_cast<std::size_t>(vertex.cover)];
+      out[k] = {pose_.positionOf(vertex, rest),
+                lit(pose_.normalOf(vertex), shares, vertex.open, CLOTH * vertex.shade * colour)};
     }
     for (std::size_t k = 1; k < sides() && style_.odd < 1.0; k += 2)
       out[k] = between(between(out[k - 1], out[(k + 1) % sides()], 0.5), out[k], style_.odd);
@@ -152,29 +154,6 @@ class SkinWriter {
     return out;
   }
 
-  Vec3 colourOf(Cover cover) const {
-    switch (cover) {
-      case Cover::HAIR:
-        return clothes_.hair;
-      case Cover::SHIRT:
-        return clothes_.shirt;
-      case Cover::COLLAR:
-        return 0.55 * clothes_.shirt + 0.3 * Vec3::Ones();
-      case Cover::SLEEVE:
-        return clothes_.long_sleeves ? clothes_.shirt : clothes_.skin;
-      case Cover::BELT:
-        return 0.5 * clothes_.shoes + 0.15 * clothes_.trousers;
-      case Cover::TROUSERS:
-        return clothes_.trousers;
-      case Cover::SHOES:
-        return clothes_.shoes;
-      case Cover::SOLES:
-        return 0.5 * clothes_.shoes;
-      default:
-        return clothes_.skin;
-    }
-  }
-
   void writeRing(const Corners& corners) {
     for (std::size_t k = 0; k < sides(); ++k) vertex(corners[k]);
   }
@@ -188,22 +167,28 @@ class SkinWriter {
     mesh_.colours.push_back(255);
   }
 
-  // Joins the ring before a vertex to the one that begins there.
+  // Joins the ring before a vertex to the one that begins there. Left and right are alike.
   void join(std::uint32_t next) {
     const auto sides = static_cast<std::uint32_t>(style_.sides);
     const std::uint32_t last = next - sides;
     for (std::uint32_t i = 0; i < sides; ++i) {
       const std::uint32_t j = (i + 1) % sides;
-      mesh_.indices.insert(mesh_.indices.end(),
-                           {last + i, last + j, next + j, last + i, next + j, next + i});
+      if (4 * i >= sides && 4 * i < 3 * sides)  // on the right
+        mesh_.indices.insert(mesh_.indices.end(),
+                             {last + i, last + j, next + i, last + j, next + j, next + i});
+      else
+        mesh_.indices.insert(mesh_.indices.end(),
+                             {last + i, last + j, next + j, last + i, next + j, next + i});
     }
   }
 
   std::size_t sides() const { return static_cast<std::size_t>(style_.sides); }
 
-  const std::vector<SkinRing>& rings_;
   const SkinPose& pose_;
-  const crowd::Clothes& clothes_;
+  CoverColours colours_;
+  double fullness_;  // -1 to 1
+  bool wide_;        // at the shoulders
+  double build_;     // 0 to 1
   const BodyStyle& style_;
   const Daylight& daylight_;
   const LightAt& light_;
@@ -226,7 +211,9 @@ void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
                 grass::GrassMesh& mesh) {
   const double height = limbOf(skeleton, crowd::Part::HEAD).radius / crowd::Proportions::HEAD;
   const SkinPose pose(skeleton, Vec3(style.left_x, style.left_y, 0.0), height);
-  SkinWriter(bodyTemplate(clothes.long_hair), pose, clothes, style, daylight, light, mesh).write();
+  SkinWriter writer(pose, clothes, style, daylight, light, mesh);
+  writer.write(bodyTemplate(clothes.outfit));
+  writer.write(headTemplate(clothes.cut));
 }
 
 }  // namespace vegetation_sim::view

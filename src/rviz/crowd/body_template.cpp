@@ -5,118 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/crowd/body_details.h"
+#include "rviz/crowd/body_hair.h"
 #include "vegetation_sim/core/math/math.h"
-#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::view {
 namespace {
 
-using crowd::Part;
-using P = crowd::Proportions;
 using Kind = FormTube::Kind;
 
 constexpr double BURIED = 0.014;  // depth below other parts from which vertices stay there
-constexpr double FOLDS = 0.22;    // strength of folds in the normals of clothes
-constexpr std::uint64_t FOLD_SEED = 0x464f4c44;
-
-std::uint8_t boneOf(Bone bone, int side = 0) {
-  return static_cast<std::uint8_t>(static_cast<int>(bone) + side);
-}
-
-Vec3 unit(const Vec3& v) {
-  return v / std::max(1e-9, length(v));
-}
-
-// Returns axes of which the first is `main` and the second as near to `side` as possible.
-BoneAxes axesAlong(const Vec3& main, const Vec3& side) {
-  const Vec3 first = unit(main), second = unit(side - dot(side, first) * first);
-  BoneAxes out;
-  out.col(0) = first;
-  out.col(1) = second;
-  out.col(2) = cross(first, second);
-  return out;
-}
-
-bool isCloth(Cover cover) {
-  return cover == Cover::SHIRT || cover == Cover::SLEEVE || cover == Cover::TROUSERS;
-}
-
-// Rises from 0 to 1 around a place.
-double step(double x, double middle, double half) {
-  return smoothStep((x - middle + half) / (2.0 * half));
-}
-
-void bind(Bone first, Bone second, int side, double weight, SkinVertex& vertex) {
-  vertex.bones = {first <= Bone::HEAD ? boneOf(first) : boneOf(first, side),
-                  second <= Bone::HEAD ? boneOf(second) : boneOf(second, side)};
-  vertex.second = weight;
-}
-
-// Hips and shoulders lie within both parts that they join, which follow both bones alike there.
-void bindTrunk(SkinVertex& vertex) {
-  const Vec3& at = vertex.position;
-  const int side = at.y() >= 0.0 ? 0 : 1;
-  const double hip = P::THIGH + P::SHANK + P::ANKLE, aside = std::fabs(at.y());
-  if (at.z() > 0.86) return bind(Bone::CHEST, Bone::HEAD, 0, step(at.z(), 0.888, 0.02), vertex);
-  const double arm = step(aside, P::SHOULDER_HALF, 0.045) * step(at.z(), P::SHOULDER - 0.03, 0.05);
-  if (arm > 0.0) return bind(Bone::CHEST, Bone::UPPER_ARM, side, arm, vertex);
-  if (at.z() < hip)
-    return bind(Bone::PELVIS, Bone::THIGH, side,
-                0.5 * step(hip - at.z(), 0.03, 0.03) * smoothStep(aside / 0.05), vertex);
-  bind(Bone::PELVIS, Bone::CHEST, 0, step(at.z(), hip + 0.09, 0.09), vertex);
-}
-
-void bindLimb(const FormTube& tube, SkinVertex& vertex) {
-  const double s = dot(vertex.position - tube.origin, tube.along);
-  if (tube.kind == Kind::ARM) {
-    if (s < 0.06)
-      return bind(Bone::CHEST, Bone::UPPER_ARM, tube.side, step(s, 0.005, 0.05), vertex);
-    return bind(Bone::UPPER_ARM, Bone::FOREARM, tube.side, step(s, P::UPPER_ARM, 0.03), vertex);
-  }
-  if (s < 0.09) return bind(Bone::PELVIS, Bone::THIGH, tube.side, step(s, 0.01, 0.06), vertex);
-  if (s < 0.37) return bind(Bone::THIGH, Bone::SHANK, tube.side, step(s, P::THIGH, 0.045), vertex);
-  bind(Bone::SHANK, Bone::FOOT, tube.side, 0.35 * step(s, 0.48, 0.03), vertex);
-}
-
-void bindTo(const FormTube& tube, SkinVertex& vertex) {
-  switch (tube.kind) {
-    case Kind::TRUNK:
-      return bindTrunk(vertex);
-    case Kind::HEAD:
-      return bind(Bone::HEAD, Bone::HEAD, 0, 0.0, vertex);
-    case Kind::LONG_HAIR:
-      return bind(Bone::CHEST, Bone::HEAD, 0, step(vertex.position.z(), 0.84, 0.05), vertex);
-    case Kind::SHOE:
-      return bind(Bone::FOOT, Bone::FOOT, tube.side, 0.0, vertex);
-    default:
-      return bindLimb(tube, vertex);
-  }
-}
-
-// The face is bare in front. Hair covers the back of the head and the temples.
-Cover coverOf(const FormRing& ring, std::size_t side) {
-  const auto from_front = std::abs(static_cast<int>(side) - 9);  // vertex 9 is in front, 3 behind
-  const int around = std::min(from_front, 12 - from_front);
-  if (ring.cover == Cover::SHOES && side >= 2 && side <= 4) return Cover::SOLES;
-  if (ring.cover != Cover::FACE) return ring.cover;
-  if (ring.along > 0.08) return around >= 2 ? Cover::HAIR : Cover::FACE;
-  if (ring.along > 0.055) return around >= 3 ? Cover::HAIR : Cover::FACE;
-  return ring.along > 0.02 && around >= 4 ? Cover::HAIR : Cover::FACE;
-}
-
-// Eyes, brows, nose and mouth by shape and shade. Vertex 9 of a ring is in front.
-void shapeFace(const FormRing& ring, std::size_t side, SkinVertex& vertex) {
-  if (ring.cover != Cover::FACE) return;
-  const bool middle = side == 9, beside = side == 8 || side == 10;
-  if (middle && ring.along > 0.03 && ring.along < 0.055)
-    vertex.position.x() += ring.along < 0.045 ? 0.013 : 0.006;  // the nose
-  if (beside && ring.along > 0.045 && ring.along < 0.055) {
-    vertex.position.x() -= 0.004;
-    vertex.shade = 0.42;  // eyes
-  }
-  if (beside && ring.along > 0.06 && ring.along < 0.07) vertex.shade = 0.75;  // brows
-  if (middle && ring.along > 0.02 && ring.along < 0.03) vertex.shade = 0.72;  // the mouth
-}
+constexpr double HEM = 0.006;     // thickness of clothes at their hems
+constexpr double HEM_FROM = -0.018, HEM_TO = -0.01;
+constexpr double WRIST = 0.32;        // of rings of arms
+constexpr double HAND_TURN = 0.1;     // by how much thumbs are turned to the body, in turns
+constexpr double UNDER_SKIRT = 0.15;  // of rings of trunk and legs
+constexpr double SCALP = 0.115;       // height of the head's rings that hair hides
+constexpr double NO_HAIR = 1.0;       // a hairline above the head
 
 // Moves a vertex to the smooth surface, unless it lies deep in another part.
 void raiseTo(const BodyForm& form, const FormTube& tube, SkinVertex& vertex) {
@@ -133,80 +38,181 @@ double openness(const BodyForm& form, const SkinVertex& vertex) {
   constexpr double WAYS[] = {0.02, 0.05, 0.10};
   for (const double way : WAYS)
     sum += saturate(form.distance(vertex.position + way * vertex.normal) / way) / 3.0;
-  return 0.3 + 0.7 * sum;
+  // What lies within other parts is seen only by the colour that it gives to its neighbours.
+  const bool within = form.distance(vertex.position) < -0.003;
+  return std::max(within ? 0.75 : 0.0, 0.3 + 0.7 * sum);
 }
 
-void crease(std::uint64_t number, SkinVertex& vertex) {
-  if (!isCloth(vertex.cover)) return;
-  const Random random = Random(FOLD_SEED).child(number);
-  vertex.shade = random.uniform(3, 0.9, 1.05);
-  for (int i = 0; i < 3; ++i)
-    vertex.normal[i] += FOLDS * random.uniform(static_cast<std::uint64_t>(i), -1.0, 1.0);
-  vertex.normal = unit(vertex.normal);
+// The hips of the trunk and the tops of legs lie within each other, below the clothes.
+bool isHidden(const FormTube& tube, const FormRing& ring) {
+  return tube.isLoose() || (tube.kind == Kind::TRUNK && ring.along < HEM_FROM) ||
+         (tube.kind == Kind::HEAD && ring.along < 0.01) ||
+         (tube.kind == Kind::LEG && ring.along < 0.03) ||
+         (tube.kind == Kind::ARM && (ring.along < 0.005 || ring.along > WRIST));
 }
 
-std::vector<SkinRing> makeTemplate(bool long_hair) {
-  const BodyForm form(long_hair);
-  std::vector<SkinRing> out;
-  for (const FormTube& tube : form.tubes()) {
-    for (std::size_t r = 0; r < tube.rings.size(); ++r) {
-      const FormRing& ring = tube.rings[r];
-      SkinRing skin;
-      skin.begins = r == 0;
-      skin.fine = ring.fine;
+// Shoes are flat below.
+void flatten(const FormRing& ring, std::size_t side, const FormTube& tube, SkinVertex& vertex) {
+  if (tube.kind != Kind::SHOE || side < 1 || side > 5) return;
+  const double broad = side == 3 ? 0.0 : side == 2 || side == 4 ? 0.7 : 0.98;
+  const double up = side == 1 || side == 5 ? 0.008 : 0.0;
+  vertex.position = tube.centreOf(ring) + (up - ring.deep) * tube.front +
+                    (side < 3 ? 1.0 : -1.0) * broad * ring.broad * tube.left;
+}
+
+bool isLower(Cover cover) {
+  return cover == Cover::TROUSERS || cover == Cover::HEM || cover == Cover::HEM_FRONT;
+}
+
+/// Makes the skin of tubes over a form.
+class SkinMaker {
+ public:
+  SkinMaker(const BodyForm& form, const HairForm* hair) : form_(form), hair_(hair) {
+    for (const FormTube& tube : form.tubes()) covers_ = covers_ || tube.kind == Kind::SKIRT;
+  }
+
+  void add(const FormTube& tube) {
+    const std::size_t first = rings_.size();
+    for (const FormRing& ring : tube.rings) {
+      if (tube.kind == Kind::HEAD && ring.along > SCALP && !hair_->isBald()) continue;
+      addRing(rings_.size() == first, ring);
+      for (std::size_t k = 0; k < MOST_SIDES; ++k) place(tube, ring, k, rings_.back().vertices[k]);
+    }
+    if (tube.kind == Kind::HEAD || tube.kind == Kind::SKIRT) takeNormals(first);
+    finish(tube, first);
+  }
+
+  /// @param head the tube of the head.
+  void addHair(const FormTube& head) {
+    const FormTube tube{Kind::HAIR, 1, head.origin, head.along, head.left, head.front, {}};
+    const std::size_t first = rings_.size();
+    for (std::size_t r = 0; r < hair_->rings(); ++r) {
+      addRing(r == 0, hair_->at(r, 0));
+      for (std::size_t k = 0; k < MOST_SIDES; ++k)
+        place(tube, hair_->at(r, k), k, rings_.back().vertices[k]);
+    }
+    takeNormals(first);
+    finish(tube, first);
+  }
+
+  SkinRings take() { return std::move(rings_); }
+
+ private:
+  void addRing(bool begins, const FormRing& ring) {
+    SkinRing skin;
+    skin.begins = begins;
+    skin.fine = ring.fine;
+    rings_.push_back(skin);
+    placed_.push_back(ring);
+  }
+
+  void place(const FormTube& tube, const FormRing& ring, std::size_t side, SkinVertex& vertex) {
+    const Around around = aroundOf(tube.kind, side);
+    const bool hand = tube.kind == Kind::ARM && ring.along > WRIST;
+    const SinCos turn = sinCosTurns(hand ? HAND_TURN : 0.0);
+    const Vec3 left = turn.cos * tube.left + turn.sin * tube.front;
+    const Vec3 front = turn.cos * tube.front - turn.sin * tube.left;
+    vertex.position =
+        tube.centreOf(ring) + around.left * ring.broad * left + around.front * ring.deep * front;
+    flatten(ring, side, tube, vertex);
+    vertex.cover = coverOf(tube.kind, ring, side, hair_ ? hair_->edge(columnOf(side)) : NO_HAIR);
+    if (covers_ && ring.along < UNDER_SKIRT && isLower(vertex.cover)) vertex.cover = Cover::SKIRT;
+    vertex.shade = ring.shade;
+    if (!isHidden(tube, ring)) raiseTo(form_, tube, vertex);
+    vertex.normal = tube.kind == Kind::EYE ? tube.along : form_.normal(vertex.position);
+    vertex.position += thicknessAt(tube, ring) * vertex.normal;
+    shapeDetails(tube.kind, ring, side, around.left * left + around.front * front, vertex);
+  }
+
+  // Clothes have hems, except below a skirt.
+  double thicknessAt(const FormTube& tube, const FormRing& ring) const {
+    const bool trunk = tube.kind == Kind::TRUNK;
+    double out = trunk && ring.along > HEM_FROM && ring.along < HEM_TO ? HEM : 0.0;
+    if (covers_ && (trunk || tube.kind == Kind::LEG) && ring.along < 0.03) out -= HEM;
+    return out;
+  }
+
+  void finish(const FormTube& tube, std::size_t first) {
+    for (std::size_t i = first; i < rings_.size(); ++i) {
       for (std::size_t k = 0; k < MOST_SIDES; ++k) {
-        SkinVertex& vertex = skin.vertices[k];
-        const SinCos turn = sinCosTurns(static_cast<double>(k) / MOST_SIDES);
-        vertex.position = tube.centreOf(ring) + turn.cos * ring.broad * tube.left -
-                          turn.sin * ring.deep * tube.front;
-        vertex.cover = coverOf(ring, k);
-        raiseTo(form, tube, vertex);
-        vertex.normal = form.normal(vertex.position);
-        vertex.open = openness(form, vertex);
-        shapeFace(ring, k, vertex);
-        crease(out.size() * MOST_SIDES + k, vertex);
-        if (tube.kind == Kind::TRUNK) vertex.girth = 0.3 * saturate(ring.along / 0.25) - 0.14;
+        SkinVertex& vertex = rings_[i].vertices[k];
+        vertex.open = openness(form_, vertex);
+        if (tube.kind == Kind::HEAD) vertex.open = 0.4 + 0.6 * vertex.open;  // below the chin
+        setBuilds(tube, placed_[i], vertex);
+        crease(i * MOST_SIDES + k, vertex);
         bindTo(tube, vertex);
       }
-      out.push_back(skin);
     }
   }
+
+  // Takes the normals of the last tube from its vertices, as features have no other.
+  void takeNormals(std::size_t first) {
+    std::vector<std::array<Vec3, MOST_SIDES>> normals;
+    for (std::size_t i = first; i < rings_.size(); ++i) {
+      const auto& own = rings_[i].vertices;
+      const auto& low = rings_[std::max(i, first + 1) - 1].vertices;
+      const auto& high = rings_[std::min(i + 1, rings_.size() - 1)].vertices;
+      Vec3 middle = Vec3::Zero();
+      for (const SkinVertex& vertex : own) middle += vertex.position / MOST_SIDES;
+      auto& out = normals.emplace_back();
+      for (std::size_t k = 0; k < MOST_SIDES; ++k) {
+        const Vec3 round =
+            own[(k + 1) % MOST_SIDES].position - own[(k + MOST_SIDES - 1) % MOST_SIDES].position;
+        const Vec3 normal = cross(round, high[k].position - low[k].position);
+        const double outward = dot(normal, own[k].position - middle);
+        out[k] = (outward < 0.0 ? -1.0 : 1.0) / std::max(1e-12, length(normal)) * normal;
+      }
+    }
+    for (std::size_t i = first; i < rings_.size(); ++i)
+      for (std::size_t k = 0; k < MOST_SIDES; ++k)
+        rings_[i].vertices[k].normal = normals[i - first][k];
+  }
+
+  const BodyForm& form_;
+  const HairForm* hair_;  // or null
+  bool covers_{false};    // a skirt covers the hips
+  SkinRings rings_;
+  FormRings placed_;  // of rings_
+};
+
+SkinRings makeBody(crowd::Outfit outfit) {
+  const BodyForm form(outfit);
+  SkinMaker maker(form, nullptr);
+  for (const FormTube& tube : form.tubes())
+    if (tube.kind != Kind::HEAD) maker.add(tube);
+  return maker.take();
+}
+
+SkinRings makeHead(crowd::HairCut cut) {
+  const BodyForm form(crowd::Outfit::TROUSERS);
+  const HairForm hair(cut);
+  SkinMaker maker(form, &hair);
+  for (const FormTube& tube : form.tubes()) {
+    if (tube.kind != Kind::HEAD) continue;
+    maker.add(tube);
+    maker.addHair(tube);
+  }
+  for (const FormTube& tube : headTubes(cut)) maker.add(tube);
+  return maker.take();
+}
+
+template <typename Choice, typename Make>
+std::array<SkinRings, static_cast<std::size_t>(Choice::COUNT)> makeAll(Make make) {
+  std::array<SkinRings, static_cast<std::size_t>(Choice::COUNT)> out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = make(static_cast<Choice>(i));
   return out;
 }
 
 }  // namespace
 
-BoneFrames framesOf(const crowd::Skeleton& skeleton, const Vec3& left) {
-  BoneFrames out;
-  const auto set = [&](std::uint8_t bone, const Vec3& origin, const Vec3& main, const Vec3& side) {
-    out[bone] = {axesAlong(main, side), origin};
-  };
-  const crowd::Limb& hips = limbOf(skeleton, Part::PELVIS);
-  const crowd::Limb& chest = limbOf(skeleton, Part::CHEST);
-  const crowd::Limb& shoulders = limbOf(skeleton, Part::SHOULDERS);
-  const crowd::Limb& head = limbOf(skeleton, Part::HEAD);
-  const Vec3 across = unit(hips.from - hips.to), wide = unit(shoulders.from - shoulders.to);
-  const Vec3 spine = chest.to - chest.from;
-  set(boneOf(Bone::PELVIS), 0.5 * (hips.from + hips.to), unit(spine) + Vec3::UnitZ(), across);
-  set(boneOf(Bone::CHEST), 0.5 * (shoulders.from + shoulders.to), spine, wide);
-  set(boneOf(Bone::HEAD), head.from, head.to - head.from, unit(wide + left));
-  const std::pair<Bone, Part> limbs[] = {{Bone::THIGH, Part::THIGH},
-                                         {Bone::SHANK, Part::SHANK},
-                                         {Bone::FOOT, Part::FOOT},
-                                         {Bone::UPPER_ARM, Part::UPPER_ARM},
-                                         {Bone::FOREARM, Part::FOREARM}};
-  for (const auto& [bone, part] : limbs) {
-    for (int side = 0; side < 2; ++side) {
-      const crowd::Limb& limb = limbOf(skeleton, part, side);
-      set(boneOf(bone, side), limb.from, limb.to - limb.from, left);
-    }
-  }
-  return out;
+const SkinRings& bodyTemplate(crowd::Outfit outfit) {
+  static const auto ALL = makeAll<crowd::Outfit>(makeBody);
+  return ALL[static_cast<std::size_t>(outfit)];
 }
 
-const std::vector<SkinRing>& bodyTemplate(bool long_hair) {
-  static const std::vector<SkinRing> SHORT = makeTemplate(false), LONG = makeTemplate(true);
-  return long_hair ? LONG : SHORT;
+const SkinRings& headTemplate(crowd::HairCut cut) {
+  static const auto ALL = makeAll<crowd::HairCut>(makeHead);
+  return ALL[static_cast<std::size_t>(cut)];
 }
 
 }  // namespace vegetation_sim::view

