@@ -24,7 +24,7 @@
 namespace vegetation_sim {
 namespace {
 
-constexpr int POLL_MILLISECONDS = 10;
+constexpr double LONGEST_WAIT = 0.1;    // [s] for the pipe at once
 constexpr std::size_t PIECE = 1 << 16;  // [B] that are read at once
 
 class Pipe {
@@ -152,9 +152,8 @@ class ChildMessage {
 class WaitingTime {
  public:
   double passed() {
-    constexpr double LONGEST_STEP = 0.1;
     const Clock::time_point now = Clock::now();
-    seconds_ += std::min(LONGEST_STEP, std::chrono::duration<double>(now - last_).count());
+    seconds_ += std::min(2.0 * LONGEST_WAIT, std::chrono::duration<double>(now - last_).count());
     last_ = now;
     return seconds_;
   }
@@ -210,6 +209,16 @@ pid_t startChild(const std::function<std::string()>& work, const ChildLimits& li
                                         : "by signal " + std::to_string(signal)));
 }
 
+/// Waits until the child sends something or ends, or for a part of the time that is left [s].
+void waitFor(const Pipe& pipe, bool closed, double left) {
+  const int milliseconds = 1 + static_cast<int>(1000.0 * std::min(left, LONGEST_WAIT));
+  pollfd ready{pipe.reading(), POLLIN, 0};
+  if (closed)  // it would always be ready, and the child is about to end
+    ::poll(nullptr, 0, 1);
+  else
+    ::poll(&ready, 1, milliseconds);
+}
+
 }  // namespace
 
 std::string runInChild(const std::function<std::string()>& work, const ChildLimits& limits) {
@@ -223,11 +232,9 @@ std::string runInChild(const std::function<std::string()>& work, const ChildLimi
     const bool ended = child.hasEnded();  // asked first: then the pipe has all that there will be
     const bool received = message.receive(pipe.reading());
     if (ended && !received) rejectEnd(limits, child.status());
-    if (time.passed() > limits.seconds) rejectSlow(limits);
-    if (received) continue;
-    // A closed pipe is always ready; the end of the child follows soon.
-    pollfd ready{message.isClosed() ? -1 : pipe.reading(), POLLIN, 0};
-    ::poll(&ready, 1, POLL_MILLISECONDS);
+    const double left = limits.seconds - time.passed();
+    if (left < 0.0) rejectSlow(limits);
+    if (!received) waitFor(pipe, message.isClosed(), left);
   }
   return message.result();
 }
