@@ -24,7 +24,7 @@ constexpr std::size_t LONGEST_PATH = 4096;               // of a material file [
 constexpr std::array<const char*, 4> ENDINGS{"dae", "obj", "ply", "stl"};
 
 // What reading may take.
-constexpr double LEAST_SECONDS = 20.0, SECONDS_OF_BYTE = 2e-7;
+constexpr double LEAST_SECONDS = 20.0, SECONDS_OF_BYTE = 5e-7;
 constexpr std::size_t LEAST_MEMORY = 1U << 30, MEMORY_OF_BYTE = 16;  // [B]
 
 /// @return the ending of a mesh file in small letters. @throws InvalidInput if it is another one.
