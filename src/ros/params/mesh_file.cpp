@@ -2,35 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/params/mesh_file.h"
 
-#include <assimp/BaseImporter.h>
-#include <assimp/MemoryIOWrapper.h>
-#include <assimp/config.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
-#include <memory>
-#include <utility>
+#include <map>
 
 #include "core/config/files.h"
+#include "ros/params/child_process.h"
+#include "ros/params/mesh_bytes.h"
+#include "ros/params/mesh_scene.h"
 #include "ros/params/resources.h"
 
 namespace vegetation_sim {
 namespace {
 
 constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;    // [B]
-constexpr std::size_t MOST_CORNERS = 16000000;           // and as many faces
-constexpr int MOST_DEPTH = 256;                          // of nodes in nodes
 constexpr std::size_t LARGEST_MATERIAL_FILE = 1U << 20;  // [B]
-constexpr std::size_t MOST_MATERIALS = 1000;             // with a colour or a texture
-constexpr float DEFAULT_GREY = 0.6F;                     // of a material that assimp has not found
-constexpr std::size_t LONGEST_NAME = 500;                // of a texture [characters]
+constexpr std::size_t MOST_MATERIAL_FILES = 64;          // that a mesh names; others are not read
+constexpr std::size_t LONGEST_PATH = 4096;               // of a material file [characters]
 constexpr std::array<const char*, 4> ENDINGS{"dae", "obj", "ply", "stl"};
+
+// What reading may take.
+constexpr double LEAST_SECONDS = 20.0, SECONDS_OF_BYTE = 5e-7;
+constexpr std::size_t LEAST_MEMORY = 1U << 30, MEMORY_OF_BYTE = 16;  // [B]
 
 /// @return the ending of a mesh file in small letters. @throws InvalidInput if it is another one.
 std::string endingOf(const std::string& name) {
@@ -68,179 +63,58 @@ void checkText(const std::string& name, const std::string& ending, const std::st
     throw InvalidInput(name + ": no mesh: the header has no line end_header");
 }
 
-/// Removes the readers of other files: assimp tries them if the file's own reader rejects it.
-void keepReaderOf(const std::string& ending, Assimp::Importer& importer) {
-  const Assimp::BaseImporter* own = importer.GetImporter(ending.c_str());
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
-    if (other.get() == own || importer.UnregisterLoader(other.get()) != aiReturn_SUCCESS)
-      (void)other.release();
+/// Returns the text of a material file; nothing if it is not there, too large or no text.
+std::string readMaterialFile(const std::string& file, const FindFile& find) {
+  try {
+    const std::string text = readFile(find(file), LARGEST_MATERIAL_FILE);
+    return text.find('\0') == std::string::npos ? text : std::string();
+  } catch (const InvalidInput&) {
+    return {};
   }
 }
 
-/// Gives assimp the material files in the folder of a mesh, and no others: assimp would open
-/// whatever a mesh names.
-class MaterialFiles : public Assimp::IOSystem {
- public:
-  MaterialFiles(std::filesystem::path folder, FindFile find)
-      : folder_(std::move(folder)), find_(std::move(find)) {}
-
-  bool Exists(const char* file) const override { return !read(file).empty(); }
-  char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* file, const char* /*mode*/) override {
-    const std::string text = read(file);
-    if (text.empty()) return nullptr;
-    auto* bytes = new std::uint8_t[text.size()];  // the stream deletes them
-    std::copy(text.begin(), text.end(), bytes);
-    return new Assimp::MemoryIOStream(bytes, text.size(), true);
+/// Reads the material files in the folder of an OBJ file that its lines "mtllib FILE" name. This
+/// process does so: it knows which files may be opened.
+std::map<std::string, std::string> readMaterialFiles(const std::string& bytes,
+                                                     const std::filesystem::path& folder,
+                                                     const FindFile& find) {
+  const std::string word = "mtllib", line_ends = "\r\n\f";
+  std::map<std::string, std::string> out;
+  std::size_t at = bytes.find(word);
+  for (; at != std::string::npos && out.size() < MOST_MATERIAL_FILES;
+       at = bytes.find(word, at + word.size())) {
+    if (at > 0 && line_ends.find(bytes[at - 1]) == std::string::npos) continue;
+    const std::size_t begin = bytes.find_first_not_of(" \t", at + word.size());
+    const std::size_t end = std::min(bytes.find_first_of(line_ends, at), bytes.size());
+    if (begin >= end || end - begin > LONGEST_PATH) continue;
+    const std::filesystem::path named(bytes.substr(begin, end - begin));
+    if (named.extension() != ".mtl") continue;
+    const auto [entry, is_new] = out.try_emplace(named.filename().string());
+    if (is_new) entry->second = readMaterialFile((folder / entry->first).string(), find);
   }
-  void Close(Assimp::IOStream* stream) override { delete stream; }
-
- private:
-  // Returns nothing for files that are not there, too large or not of this folder.
-  std::string read(const std::string& file) const {
-    const std::string name = std::filesystem::path(file).filename().string();
-    if (!find_ || std::filesystem::path(name).extension() != ".mtl") return {};
-    try {
-      const std::string text = readFile(find_((folder_ / name).string()), LARGEST_MATERIAL_FILE);
-      return text.find('\0') == std::string::npos ? text : std::string();
-    } catch (const InvalidInput&) {
-      return {};
-    }
-  }
-
-  std::filesystem::path folder_;
-  FindFile find_;
-};
-
-/// Returns the material of a mesh, and whether it has a colour or a texture of its own.
-std::pair<canopy::FaceMaterial, bool> readMaterial(const aiMaterial& material) {
-  canopy::FaceMaterial out;
-  aiString name, texture;
-  material.Get(AI_MATKEY_NAME, name);
-  if (std::string(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) return {out, false};
-  aiColor3D colour;
-  const bool coloured = material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS;
-  const std::array<float, 3> parts{colour.r, colour.g, colour.b};
-  const bool is_default = parts == std::array<float, 3>{DEFAULT_GREY, DEFAULT_GREY, DEFAULT_GREY};
-  for (int i = 0; coloured && i < 3; ++i) {
-    const auto part = static_cast<double>(parts[static_cast<std::size_t>(i)]);
-    out.colour[i] = std::isfinite(part) ? std::clamp(part, 0.0, 1.0) : 1.0;
-  }
-  const bool textured = material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS;
-  if (textured) out.texture = std::string(texture.C_Str()).substr(0, LONGEST_NAME);
-  // Many tools write a black colour beside a texture.
-  if (textured && out.colour.maxCoeff() < 0.05) out.colour = Vec3::Ones();
-  return {out, (coloured && !is_default) || !out.texture.empty()};
+  return out;
 }
-
-/// Collects the triangles of a scene, each where its node puts it.
-class Collector {
- public:
-  /// @param rigid words in the names of rigid parts.
-  Collector(const aiScene& scene, const std::string& rigid) : scene_(scene), rigid_(rigid) {}
-
-  canopy::LeafMesh collect() {
-    readMaterials();
-    if (scene_.mRootNode) add(*scene_.mRootNode, aiMatrix4x4(), 0);
-    if (!textured_) out_.uv.clear();
-    if (!has_normals_) out_.normals.clear();
-    if (out_.materials.empty()) out_.material.clear(), out_.normals.clear();
-    return std::move(out_);
-  }
-
- private:
-  void readMaterials() {
-    number_.assign(scene_.mNumMaterials, 0);
-    for (unsigned i = 0; i < scene_.mNumMaterials && out_.materials.size() < MOST_MATERIALS; ++i) {
-      auto [material, is_own] = readMaterial(*scene_.mMaterials[i]);
-      if (!is_own) continue;
-      out_.materials.push_back(std::move(material));
-      number_[i] = static_cast<std::uint16_t>(out_.materials.size());
-    }
-  }
-
-  void add(const aiNode& node, const aiMatrix4x4& above, int depth) {
-    if (depth > MOST_DEPTH)
-      throw InvalidInput("nodes in nodes, more than " + std::to_string(MOST_DEPTH) + " deep");
-    const aiMatrix4x4 here = above * node.mTransformation;
-    for (unsigned i = 0; i < node.mNumMeshes; ++i)
-      add(*scene_.mMeshes[node.mMeshes[i]], here, node.mName.C_Str());
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], here, depth + 1);
-  }
-
-  void add(const aiMesh& mesh, const aiMatrix4x4& here, const std::string& node) {
-    // Before they are made: many nodes may have one mesh.
-    if (out_.vertices.size() + mesh.mNumVertices > MOST_CORNERS ||
-        out_.faces.size() + mesh.mNumFaces > MOST_CORNERS)
-      throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " corners or faces");
-    const auto first = static_cast<std::uint32_t>(out_.vertices.size());
-    const aiVector3D* uv = mesh.mTextureCoords[0];
-    textured_ = textured_ && uv;
-    has_normals_ = has_normals_ && mesh.mNormals;
-    const aiMatrix3x3 turn(here);
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D v = here * mesh.mVertices[i];
-      out_.vertices.emplace_back(v.x, v.y, v.z);
-      if (has_normals_) {
-        const aiVector3D n = turn * mesh.mNormals[i];
-        out_.normals.emplace_back(n.x, n.y, n.z);
-      }
-      out_.uv.push_back(uv ? std::array<double, 2>{uv[i].x, uv[i].y} : std::array<double, 2>{});
-    }
-    const bool rigid = canopy::isRigidName(mesh.mName.C_Str(), rigid_) ||
-                       canopy::isRigidName(node, rigid_) ||
-                       canopy::isRigidName(materialOf(mesh), rigid_);
-    const std::uint16_t material =
-        mesh.mMaterialIndex < number_.size() ? number_[mesh.mMaterialIndex] : std::uint16_t{0};
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) add(mesh.mFaces[i], first, rigid);
-    out_.material.resize(out_.faces.size(), material);
-  }
-
-  // Splits a convex face into a fan of triangles; points and lines have none. The splitting by
-  // assimp ends the process for some broken files.
-  void add(const aiFace& face, std::uint32_t first, bool rigid) {
-    const unsigned* corner = face.mIndices;
-    for (unsigned i = 2; i < face.mNumIndices; ++i) {
-      if (out_.faces.size() >= MOST_CORNERS)
-        throw InvalidInput("more than " + std::to_string(MOST_CORNERS) + " triangles");
-      out_.faces.push_back({first + corner[0], first + corner[i - 1], first + corner[i]});
-      out_.rigid.push_back(rigid);
-    }
-  }
-
-  std::string materialOf(const aiMesh& mesh) const {
-    if (mesh.mMaterialIndex >= scene_.mNumMaterials) return {};
-    aiString name;
-    scene_.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
-    return name.C_Str();
-  }
-
-  const aiScene& scene_;
-  const std::string& rigid_;
-  bool textured_{true}, has_normals_{true};
-  std::vector<std::uint16_t> number_;  // 1 + index in out_.materials of each material; 0: none
-  canopy::LeafMesh out_;
-};
 
 }  // namespace
 
 canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes, const std::string& rigid,
                           const FindFile& find) {
-  const std::string ending = endingOf(name);
+  MeshSource source;
+  source.ending = endingOf(name);
   const std::filesystem::path file = resolveFile(name);
-  const std::string bytes = readFile(file.string(), LARGEST_MESH_FILE);
-  checkText(name, ending, bytes);
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, axes == MeshAxes::KEPT);
-  keepReaderOf(ending, importer);
-  importer.SetIOHandler(new MaterialFiles(file.parent_path(), find));  // the importer deletes it
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
-  if (!scene) throw InvalidInput(name + ": no mesh: " + importer.GetErrorString());
+  source.bytes = readFile(file.string(), LARGEST_MESH_FILE);
+  checkText(name, source.ending, source.bytes);
+  if (find && source.ending == "obj")
+    source.materials = readMaterialFiles(source.bytes, file.parent_path(), find);
+  const std::size_t size = source.bytes.size();
+  const ChildLimits limits{"the reader of meshes",
+                           LEAST_SECONDS + SECONDS_OF_BYTE * static_cast<double>(size),
+                           LEAST_MEMORY + MEMORY_OF_BYTE * size, MOST_MESH_BYTES};
+  const auto read = [&] { return toBytes(readScene(source, axes, rigid)); };
   try {
-    return Collector(*scene, rigid).collect();
+    return meshOfBytes(runInChild(read, limits));
   } catch (const InvalidInput& error) {
-    throw InvalidInput(name + ": " + error.what());
+    throw InvalidInput(name + ": " + error.what(), error.code());
   }
 }
 

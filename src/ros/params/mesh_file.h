@@ -20,7 +20,8 @@ using FindFile = std::function<std::string(const std::string& path)>;
 /// The faces of a Collada, OBJ, PLY or STL file, named as resolveFile() takes it, in the unit of
 /// length that the file states. @param rigid words in the names of rigid parts, see
 /// PlantKind::rigid. @param find finds the materials of an OBJ file, which are read from files of
-/// the same folder; null: none is opened. @throws InvalidInput naming the file.
+/// the same folder; null: none is opened. A child process reads the mesh. @throws InvalidInput
+/// naming the file, also if that process crashes or takes too much time or memory.
 canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes,
                           const std::string& rigid = canopy::RIGID_WORDS,
                           const FindFile& find = {});
