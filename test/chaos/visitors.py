@@ -15,6 +15,7 @@ from vegetation_sim.msg import AgentSpawn, TreadEvent, Viewer, WindPrimitive
 PERIODS = 0.2, 1.0     # [s] of wall time between two requests
 MOST_WALKERS = 12
 FANS = 'fan_0', 'fan_1', 'fan_2'
+KEPT_WINDS = 8  # at least as many as the forest keeps
 SETTINGS = (('forest_animator', 'robot_tolerance', 0.02, 0.1),
             ('grass_field', 'tread_recovery', 20.0, 90.0),
             ('canopy_animator', 'frequency', 0.8, 2.0),
@@ -51,7 +52,8 @@ class Visitors(threading.Thread):
     @contextlib.contextmanager
     def rest(self):
         """Sends nothing meanwhile, after all that lasts was undone. The memory of nodes depends on
-        it: in a stronger wind the forest simulates its trees in more detail."""
+        it: in a stronger wind the forest simulates its trees in more detail, and it keeps some winds
+        that have passed."""
         with self._rests:
             if self._grabs:
                 self._send(self.grab)
@@ -59,8 +61,9 @@ class Visitors(threading.Thread):
                 self._send(self.remove_walkers)
             for fan in FANS:
                 self._send(lambda name=fan: self.remove_fan(name))
-            for node, name, low, _ in SETTINGS:
-                self._send(lambda value=(node, name, low): self.set_parameter(*value))
+            for node, name, low, high in SETTINGS:
+                for value in (high, low) * KEPT_WINDS:
+                    self._send(lambda setting=(node, name, value): self.set_parameter(*setting))
             yield
 
     def stop(self):
