@@ -30,6 +30,8 @@ constexpr bool LIMITS_MEMORY = true;
 constexpr bool LIMITS_MEMORY = true;
 #endif
 
+constexpr long MOST_CLOSED = 65536;  // of open files, one by one
+
 void lowerLimit(decltype(RLIMIT_AS) resource, rlim_t most) {
   rlimit limit{};
   if (::getrlimit(resource, &limit) != 0) return;
@@ -37,13 +39,20 @@ void lowerLimit(decltype(RLIMIT_AS) resource, rlim_t most) {
   ::setrlimit(resource, &limit);
 }
 
-void closeOthers(int kept) {
-#ifdef SYS_close_range
-  if (kept > 3) ::syscall(SYS_close_range, 3U, static_cast<unsigned>(kept - 1), 0U);
-  ::syscall(SYS_close_range, static_cast<unsigned>(kept + 1), ~0U, 0U);
-#else
-  (void)kept;
+#ifndef SYS_close_range
+#define SYS_close_range 436  // the headers of Debian 11 and Ubuntu 20.04 have no name for it
 #endif
+
+void closeOneByOne(int kept) {
+  const int end = static_cast<int>(std::min(::sysconf(_SC_OPEN_MAX), MOST_CLOSED));
+  for (int file = 3; file < end; ++file)
+    if (file != kept) ::close(file);
+}
+
+void closeOthers(int kept) {
+  if (kept > 3) ::syscall(SYS_close_range, 3U, static_cast<unsigned>(kept - 1), 0U);
+  if (::syscall(SYS_close_range, static_cast<unsigned>(kept + 1), ~0U, 0U) == 0) return;
+  closeOneByOne(kept);  // Linux before 5.9
 }
 
 void writeAll(int out, const char* bytes, std::size_t size) {

@@ -21,6 +21,7 @@ constexpr std::size_t LARGEST_MESH_FILE = 512U << 20;    // [B]
 constexpr std::size_t LARGEST_MATERIAL_FILE = 1U << 20;  // [B]
 constexpr std::size_t MOST_MATERIAL_FILES = 64;          // that a mesh names; others are not read
 constexpr std::size_t LONGEST_PATH = 4096;               // of a material file [characters]
+constexpr const char* BYTE_ORDER_MARK = "\xEF\xBB\xBF";  // of UTF-8
 constexpr std::array<const char*, 4> ENDINGS{"dae", "obj", "ply", "stl"};
 
 // What reading may take.
@@ -104,6 +105,8 @@ canopy::LeafMesh loadMesh(const std::string& name, MeshAxes axes, const std::str
   const std::filesystem::path file = resolveFile(name);
   source.bytes = readFile(file.string(), LARGEST_MESH_FILE);
   checkText(name, source.ending, source.bytes);
+  if (source.ending == "obj" && source.bytes.compare(0, 3, BYTE_ORDER_MARK) == 0)
+    source.bytes.erase(0, 3);
   if (find && source.ending == "obj")
     source.materials = readMaterialFiles(source.bytes, file.parent_path(), find);
   const std::size_t size = source.bytes.size();

@@ -171,7 +171,11 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   const canopy::PlantKind& kind = layout.kinds[p.kind];
   const canopy::GrownPlant grown = canopy::grow(kind, p, height);
   const std::size_t count = grown.leaves.size();
-  const Share share = isRead(kind) && !(height < canopy::UNCUT) ? Share::ALIKE : Share::OTHERS;
+  tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
+  light_.push_back(lightAt(tops_.back()));
+  const bool is_lit = light_.back().sun > 1.0 - SEEN && light_.back().sky > 1.0 - SEEN;
+  const bool is_whole = !(height < canopy::UNCUT);
+  const Share share = isRead(kind) && is_whole && is_lit ? Share::ALIKE : Share::OTHERS;
   std::vector<std::pair<double, std::size_t>> sorted;
   for (std::size_t i = 0; i < count; ++i)
     sorted.emplace_back(joins(cutOf(kind, grown.leaves[i]))
@@ -184,8 +188,6 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
     leaves_.push_back({leaf, plant, p.kind, inBall(layout, plant, leaf.root), cutOf(kind, leaf),
                        share, static_cast<float>(rank) / static_cast<float>(count)});
   }
-  tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
-  light_.push_back(lightAt(tops_.back()));
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind, p.kind);
   stem_owners_.resize(stem_paint_.size(), plant);

@@ -64,8 +64,8 @@ class CanopyPatch {
   bool isPictured(const canopy::Foliage& foliage, const std::vector<bool>& pictured) const;
   /// Returns whether bodies have pushed a plant.
   bool isBent(const canopy::Foliage& foliage) const;
-  /// Leaves of whole plants that are read from a file, since all of their kind are alike, or of the
-  /// others.
+  /// Leaves of whole plants in full light that are read from a file, since all of their kind are
+  /// alike, or of the others.
   enum class Share { ALIKE, OTHERS };
   /// Returns such plants, which have leaves.
   std::vector<std::size_t> alike() const;
