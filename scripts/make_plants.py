@@ -102,7 +102,7 @@ def write_fern():
         frond(mesh, around, random.uniform(0.55, 0.85), random.uniform(0.5, 0.95))
     (FOLDER / 'fern.obj').write_text(mesh.text())
     (FOLDER / 'fern.mtl').write_text('newmtl stem\nKd 0.28 0.34 0.12\n'
-                                     'newmtl frond\nKd 1 1 1\nmap_Kd fern.png\n')
+                                     'newmtl frond\nKd 0.6 0.64 0.58\nmap_Kd fern.png\n')
     Image.fromarray(draw_frond(), 'RGBA').save(FOLDER / 'fern.png', optimize=True)
 
 
