@@ -56,8 +56,9 @@ def add_gaps(table, rig):
             gap, begin, rig.ticks.count[node]),
                   '<= %g s' % MOST_GAP, gap <= MOST_GAP)
         # The clock stands while it waits, so that the stamps do not show how long a tick takes.
-        wait = rig.clock.longest_waits[node]
-        table.add('longest wait of the clock for ' + node, '%.2f s of wall time' % wait,
+        wait, at = rig.clock.longest_waits[node]
+        table.add('longest wait of the clock for ' + node, '%.2f s of wall time, at %.1f s' % (
+            wait, at),
                   '<= %g s' % MOST_GAP, wait <= MOST_GAP)
 
 

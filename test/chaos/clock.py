@@ -3,7 +3,7 @@
 """A clock that is faster than real time, steady or with jitter."""
 import threading
 import time
-from collections import Counter
+from collections import defaultdict
 
 import rospy
 from rosgraph_msgs.msg import Clock
@@ -29,7 +29,7 @@ class FastClock(threading.Thread):
         self.now = START
         self.jitter = False
         self.waited = 0.0  # for nodes [s] of wall time
-        self.longest_waits = Counter()
+        self.longest_waits = defaultdict(lambda: (0.0, 0.0))  # [s] of wall time; and when it was
         self._factor, self._robot, self._lag, self._random = factor, robot, lag, random
         # Without a queue, frames are in the sockets of the nodes before the time that needs them.
         self._publisher = publisher('/clock', Clock)
@@ -55,7 +55,7 @@ class FastClock(threading.Thread):
 
     def _count_wait(self, node, passed, wait):
         self.waited += passed
-        self.longest_waits[node] = max(self.longest_waits[node], wait)
+        self.longest_waits[node] = max(self.longest_waits[node], (wait, self.now))
 
     def _advance(self, passed):
         speed = self._random.choice(SPEEDS) if self.jitter else 1.0
