@@ -12,9 +12,11 @@
 #include <vegetation_sim/Viewer.h>
 
 #include <atomic>
+#include <boost/make_shared.hpp>
 #include <chrono>
 #include <condition_variable>
 #include <fstream>
+#include <future>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -23,6 +25,7 @@
 #include <thread>
 #include <vector>
 
+#include "nodes/base/closable_queue.h"
 #include "nodes/base/freed_memory.h"
 #include "nodes/canopy/canopy_animator.h"
 #include "nodes/crowd/agent_crowd.h"
@@ -135,6 +138,36 @@ TEST_F(NodeEnd, MayComeWithinACallback) {
   liveAndEnd<GrassField>("grass_field", "scenarios/lawn.yaml");
   liveAndEnd<CanopyAnimator>("canopy_animator", "scenarios/shrubs.yaml");
   liveAndEnd<AgentCrowd>("agent_crowd", "scenarios/crowd.yaml");
+}
+
+/// Tells that it runs, and runs until it may end.
+class LongCallback final : public ros::CallbackInterface {
+ public:
+  CallResult call() override {
+    begun.set_value();
+    may_end.get_future().wait();
+    has_ended = true;
+    return Success;
+  }
+
+  std::promise<void> begun, may_end;
+  std::atomic<bool> has_ended{false};
+};
+
+// What a callback uses may be destroyed once its queue is closed.
+TEST(ClosableQueue, IsClosedOnceTheCallbackThatRunsHasEnded) {
+  ros::CallbackQueue target;
+  ClosableQueue queue(target);
+  const auto callback = boost::make_shared<LongCallback>();
+  queue.addCallback(callback, 1);
+  std::thread caller([&] { target.callOne(ros::WallDuration(0.0)); });
+  callback->begun.get_future().wait();
+  std::future<void> closing = std::async(std::launch::async, [&] { queue.close(); });
+  EXPECT_EQ(closing.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+  callback->may_end.set_value();
+  closing.wait();
+  EXPECT_TRUE(callback->has_ended);
+  caller.join();
 }
 
 // A reset waits for the node's thread in another one, and for a shard that no node animates.
