@@ -12,6 +12,7 @@
 #include "rviz/canopy/canopy_display.h"
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
+#include "rviz/rigs/shade.h"
 #include "rviz/trees/shared_light.h"
 #include "vegetation_sim/ros/conversions/canopy_conversions.h"
 
@@ -282,26 +283,6 @@ TEST_F(CanopyDisplayTest, DrawsLeavesOnGrassUnderASky) {
   EXPECT_GT(seen.blue, 0.05);
   EXPECT_EQ(display->drawn().drawn, display->drawn().leaves);
   EXPECT_EQ(display->drawn().leaves, 2u * 600 + 2u * 40 * 6);
-}
-
-// Returns the light below a roof of leaves over all plants, which the sun hardly shines through.
-std::shared_ptr<const forest::LightGrid> lightBelowARoof() {
-  auto out = std::make_shared<forest::LightGrid>(Vec3(-8, -8, 0), Vec3(8, 8, 8), 0.5);
-  for (int i = 0; i < 6400; ++i)
-    out->addLeaf(Vec3(-8.0 + 0.2 * (i % 80), -8.0 + 0.2 * (i / 80), 6.0), 0.2);
-  out->cast(Vec3(0.0, 0.0, 1.0));
-  return out;
-}
-
-// Returns the mean green of the pixels that are not of the background.
-double brightnessOfPlants(const std::vector<std::uint8_t>& pixels) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
-    if (pixels[i + 2] > 150) continue;
-    sum += pixels[i + 1];
-    count += 1.0;
-  }
-  return sum / count;
 }
 
 // Plants below trees of another display are darker, and as before without them.

@@ -78,10 +78,12 @@ double farthest(const grass::GrassMesh& from, const grass::GrassMesh& to) {
   return out;
 }
 
+constexpr std::uint32_t TROUSERS = 3, SKIRT = 5, COAT = 8;  // people with these
+
 class PoppingTest : public testing::TestWithParam<std::uint32_t> {};
 
-// When a body is smaller by a thousandth, its surface changes by less than 0.06 pixel and each
-// colour by at most a few of 255.
+// When a body is smaller by a thousandth, its surface changes by less than 0.05 pixel, a skirt by
+// less than 0.06, and each colour by at most a few of 255.
 TEST_P(PoppingTest, NothingPopsAsABodyGetsSmaller) {
   int switches = 0;
   double farthest_pixels = 0.0;
@@ -104,11 +106,10 @@ TEST_P(PoppingTest, NothingPopsAsABodyGetsSmaller) {
   }
   std::printf("largest step %.4f pixel, %d of 255\n", farthest_pixels, colour);
   EXPECT_EQ(switches, 3);
-  EXPECT_LT(farthest_pixels, 0.06);
+  EXPECT_LT(farthest_pixels, GetParam() == SKIRT ? 0.06 : 0.05);
   EXPECT_LE(colour, 3);
 }
-// These have trousers, a skirt with long hair, and a coat with a cap.
-INSTANTIATE_TEST_SUITE_P(Bodies, PoppingTest, testing::Values(3u, 5u, 8u));
+INSTANTIATE_TEST_SUITE_P(Bodies, PoppingTest, testing::Values(TROUSERS, SKIRT, COAT));
 
 // The crown is as high as the person, within 1 %, the soles are on the ground, and fingers reach
 // below the wrists.
