@@ -28,10 +28,16 @@ def _word(raw, at):
     return struct.unpack_from('<Q', raw, at)[0]
 
 
+def _after_arrays(raw, at, *sizes):
+    """Returns the end of arrays that begin at `at`, of elements of these sizes [byte]."""
+    for size in sizes:
+        at += 4 + size * struct.unpack_from('<I', raw, at)[0]
+    return at
+
+
 def _forest_hash(raw):
-    at = header_of(raw)[2] + 4 + 1 + 1 + 8
-    blends = struct.unpack_from('<I', raw, at)[0]
-    return _word(raw, at + 4 + 4 * blends + 8 + 8 + 8)
+    at = _after_arrays(raw, header_of(raw)[2] + 4 + 1 + 1 + 8, 4)
+    return _word(raw, at + 8 + 8 + 8)
 
 
 def _grass_hash(raw):
@@ -39,10 +45,10 @@ def _grass_hash(raw):
 
 
 def _canopy_hash(raw):
-    at = header_of(raw)[2] + 8
-    for _ in range(2):
-        at += 4 + 2 * struct.unpack_from('<I', raw, at)[0]
-    return _word(raw, at + 2 + 8 + 2 * 56 + 8 + 8 + 8)
+    at = _after_arrays(raw, header_of(raw)[2] + 8, 2, 2)       # velocities
+    at = _after_arrays(raw, at + 2 + 8 + 2 * 56 + 8, 4, 2, 2, 2)  # bent cells
+    at = _after_arrays(raw, at + 1, 4, 8)                      # cut plants
+    return _word(raw, at + 8 + 8)
 
 
 def _crowd_hash(raw):

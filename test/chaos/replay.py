@@ -19,7 +19,7 @@ from waiting import wait_for
 from watched_node import all_delivered, publisher
 
 BATCH, WINDOW = 40, 8  # ticks that events are ahead of the clock, and the clock of the states
-MOST_INPUTS = 6        # to which the events of a batch refer
+MOST_INPUTS = 4        # to which the events of a batch refer: a node keeps eight, those of two batches
 COVER_AHEAD = NANOSECONDS  # [ns]
 DEADLINE = 60.0        # [s] of wall time for a tick
 # Kinds of events that refer to an input by the name of a field, and the input.
@@ -102,12 +102,13 @@ class Replay:
         """Yields lists of ticks with few inputs, of which a node keeps only the newest."""
         batch, inputs = [], 0
         for stamp in ticks:
-            batch.append(stamp)
-            inputs += sum(kind_of(raw) in REFERENCES[self.node]
-                          for raw in self._record.events.get(stamp, ()))
-            if len(batch) == BATCH or inputs >= MOST_INPUTS:
+            own = sum(kind_of(raw) in REFERENCES[self.node]
+                      for raw in self._record.events.get(stamp, ()))
+            if batch and (len(batch) == BATCH or inputs + own > MOST_INPUTS):
                 yield batch
                 batch, inputs = [], 0
+            batch.append(stamp)
+            inputs += own
         yield batch
 
     def _run_batch(self, ticks):

@@ -8,8 +8,10 @@ import unittest
 
 import rospy
 import rostest
-from vegetation_sim.msg import GrassEvent
+from std_msgs.msg import Header
+from vegetation_sim.msg import AgentStates, CanopyState, ForestState, GrassEvent, GrassState
 
+from raw_messages import STATE_HASHES
 from recording import NodeRecord
 from watches import floors_of, trend_of
 
@@ -17,13 +19,17 @@ TICK = rospy.Time(1000, 0)
 OTHER = rospy.Time(1001, 0)
 
 
+def bytes_of(message):
+    out = io.BytesIO()
+    message.serialize(out)
+    return out.getvalue()
+
+
 def event_of(source, frame='map', stamp=TICK):
     """Returns the bytes of a message; a journal has no frame."""
     message = GrassEvent(kind=GrassEvent.TREAD)
     message.header.stamp, message.header.frame_id, message.tread.source = stamp, frame, source
-    out = io.BytesIO()
-    message.serialize(out)
-    return out.getvalue()
+    return bytes_of(message)
 
 
 class ChaosRecord(unittest.TestCase):
@@ -56,6 +62,18 @@ class ChaosRecord(unittest.TestCase):
         self.record.end_process(0, self.journal)
         self.expect(0, 1)
         self.assertNotIn(OTHER.to_nsec(), self.record.events)
+
+    def test_the_hash_of_a_state_is_read_from_its_bytes(self):
+        header, value = Header(1, TICK, 'map'), 0x123456789ABCDEF0
+        bent = dict(bent_plants=[7], bent_cells=[1], lean_x=[-2], lean_y=[3])
+        states = {
+            'forest_animator': ForestState(header=header, base_blend=[0.1, 0.2, 0.3], hash=value),
+            'grass_field': GrassState(header=header, key_frame=True, press_stamps=[TICK], hash=value),
+            'canopy_animator': CanopyState(header=header, right=[1] * 5, up=[2] * 5, cut_plants=[4, 5],
+                                           cut_heights=[0.5, 0.6], hash=value, **bent),
+            'agent_crowd': AgentStates(header=header, hash=value)}
+        for node, state in states.items():
+            self.assertEqual(STATE_HASHES[node](bytes_of(state)), value, node)
 
     # Nodes keep some freed memory, and hold more while they are busy than while they rest.
     def test_the_trend_of_memory_is_that_of_its_floor_at_rest(self):
