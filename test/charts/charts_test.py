@@ -269,7 +269,7 @@ class Charts(unittest.TestCase):
         charts = registry.all_charts()
         self.assertGreaterEqual(len(charts), 9)
         for chart in charts.values():
-            self.assertTrue(chart.about and chart.columns, chart.name)
+            self.assertTrue(chart.about and chart.advice and chart.columns, chart.name)
             self.assertEqual(set(chart.runs), {'quick', 'usual', 'full'})
             self.assertTrue((ROOT / 'bench' / (chart.bench + '.cpp')).exists(), chart.bench)
             self.assertIn('bench/%s.cpp' % chart.bench, chart.sources)

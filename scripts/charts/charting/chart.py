@@ -16,6 +16,7 @@ class Chart:
     """A drawing of one table that a bench writes with `--csv`."""
     name: str  # of its files and for --only
     about: str  # a description in one line
+    advice: str  # what a user should choose by it, in a sentence or two below the drawing
     bench: str  # program of this package
     columns: Dict[str, type]  # of the table, in its order: str or float
     draw: Callable  # rows -> figure

@@ -103,7 +103,7 @@ def draw_all(begun, out):
             seconds = wait_for(measured, progress)
             rows = tables.read(out / (chart.name + '.csv'), chart.columns)
             line = stamp.text_of(stamp.read_all(out).get(chart.name))
-            style.save(chart.draw(rows), out / chart.name, line)
+            style.save(chart.draw(rows), out / chart.name, chart.advice, line)
             print('  %s.png and .svg, %.0f s' % (out / chart.name, seconds), flush=True)
         except RequestError as error:
             failed += 1

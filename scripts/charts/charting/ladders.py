@@ -27,10 +27,14 @@ def draw(axes, rows, names=lambda ladder: ladder, setting=None, floor=None, left
                     color=style.COLOURS[number], label=names(ladder))
     for row, cost, error in points:
         if row.chosen:
-            style.ring(axes, cost, error, left=left)
+            style.ring(axes, cost, error, name_of_default(row, setting), left)
     if setting:
         write_settings(axes, points, setting, left)
     style.draw_front(axes, [(cost, error) for _, cost, error in points])
+
+
+def name_of_default(row, setting):
+    return 'default' + (': ' + setting(row) if setting else '')
 
 
 def write_settings(axes, points, setting, left):
@@ -38,7 +42,8 @@ def write_settings(axes, points, setting, left):
     axes.autoscale_view()
     at = axes.transData.transform([point[1:] for point in points])
     taken = [style.box(x, y) for x, y in at]
-    taken += [style.box_of_words(*place, 'default', (-9 if left else 9, 9), bold=True)
+    taken += [style.box_of_words(*place, name_of_default(point[0], setting), (-9 if left else 9, 9),
+                                 bold=True)
               for place, point in zip(at, points) if point[0].chosen]
     said = set()
     for place, (row, cost, error) in zip(at, points):

@@ -7,6 +7,7 @@ band underneath.
 """
 import io
 import math
+import textwrap
 
 import matplotlib
 from PIL import Image
@@ -18,10 +19,13 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # n
 # Okabe and Ito 2008.
 BLACK, ORANGE, SKY, GREEN = '#000000', '#E69F00', '#56B4E9', '#009E73'
 YELLOW, BLUE, RED, PINK, GREY = '#F0E442', '#0072B2', '#D55E00', '#CC79A7', '#999999'
-COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY)
+WINE = '#882255'  # Tol
+COLOURS = (BLUE, RED, GREEN, ORANGE, PINK, SKY, BLACK, GREY, WINE)
 MARKERS = 'osD^vPX<>*'
 FRONT = '#D9D9D9'
 STRIP = 0.16  # height of the line below a chart [inch]
+LINE = 0.19  # height of a line of advice [inch]
+LETTERS = 12.5  # of the advice in an inch
 DOTS_PER_INCH = 96
 HALO = [withStroke(linewidth=1.5, foreground='white')]  # behind words that a curve may cross
 
@@ -130,19 +134,28 @@ def legend_below(out, axes, columns=4):
     handles = {}
     for each in axes:
         handles.update({name: line for line, name in zip(*each.get_legend_handles_labels())})
-    lines = math.ceil(len(handles) / columns)
-    leave_below(out, STRIP + 0.2 * lines + 0.1)
-    out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns,
-               bbox_to_anchor=(0.5, STRIP / out.get_figheight()))
+    out.legend(handles.values(), handles.keys(), loc='lower center', ncol=columns)
 
 
-def save(out, path, stamp=''):
+def write_advice(out, text):
+    """Writes what to choose below the axes and the legend, for which the figure becomes higher."""
+    lines = textwrap.wrap(text, int(LETTERS * out.get_figwidth()))
+    out.set_figheight(out.get_figheight() + LINE * len(lines))
+    height = STRIP + LINE * len(lines)
+    out.text(0.5, (height - 0.02) / out.get_figheight(), '\n'.join(lines), ha='center', va='top',
+             fontsize=9.5, fontweight='bold')
+    for legend in out.legends:
+        legend.set_bbox_to_anchor((0.5, height / out.get_figheight()), transform=out.transFigure)
+        height += legend.get_window_extent().height / out.dpi + 0.1
+    leave_below(out, height)
+
+
+def save(out, path, advice='', stamp=''):
     """Saves as PNG and SVG, without a date, so that equal figures give equal files.
 
-    `stamp` is the line below the chart.
+    `stamp` is the last line, below the advice.
     """
-    if not out.legends:
-        leave_below(out, STRIP)
+    write_advice(out, advice)
     out.text(0.995, 0.04 / out.get_figheight(), stamp, ha='right', fontsize=6.5, color='0.35')
     picture = io.BytesIO()
     out.savefig(picture, format='png', dpi=DOTS_PER_INCH)

@@ -30,13 +30,15 @@ def draw(rows):
     seeds = len(of['mean_along'])
     style.label(spectrum, 'frequency [Hz]', 'spectral density [(m/s)²/Hz]',
                 'mean of %d seeds; dashed: the band with turbulence' % seeds)
-    style.label(statistics, 'seed', 'over 10 minutes [m/s]', 'lines: stated')
+    style.label(statistics, 'seed', 'mean and rms over 10 minutes [m/s]', 'lines: stated')
     for axes in (spectrum, statistics):
         axes.legend(ncol=2)
     return figure
 
 
 SOURCES = ('src/wind', 'bench/breeze_spectrum.cpp')
-CHART = Chart('breeze_spectrum', 'spectrum, mean and rms of a breeze', 'breeze_spectrum',
+ADVICE = ('Trust the breeze from 0.01 to 2 Hz, where spectrum, mean and rms are as '
+          'stated.')
+CHART = Chart('breeze_spectrum', 'spectrum, mean and rms of a breeze', ADVICE, 'breeze_spectrum',
               {'quantity': str, 'seed_or_hz': float, 'measured': float, 'stated': float},
               draw, SOURCES)

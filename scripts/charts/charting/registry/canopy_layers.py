@@ -18,11 +18,12 @@ def draw(rows):
         for row in own:
             if row.size == CHOSEN and number == 0:
                 style.ring(error, row.size, 100.0 * row.value)
+                style.ring(cost, row.size, row.ratio)
         if number == 0:
             cost.plot([row.size for row in own], [row.ratio for row in own], '-o',
                       color=style.BLUE, label='plane, layers and all leaves')
     slow = [row.ratio for row in rows if row.what == 'truth, cost']
-    cost.axhline(sum(slow) / len(slow), color=style.RED, linestyle='--',
+    cost.axhline(sum(slow) / len(slow), color=style.BLACK, linestyle='--',
                  label='every leaf on its own')
     for axes in (error, cost):
         axes.set_ylim(bottom=0.0)
@@ -33,7 +34,9 @@ def draw(rows):
 
 
 SOURCES = ('src/canopy/layers', 'src/canopy/flow', 'src/canopy/plane', 'bench/canopy_bench.cpp')
-CHART = Chart('canopy_layers', 'error and cost of layers against every leaf on its own',
+ADVICE = ('Choose 5 layers (default). 9 layers lower the error from 39 to 29 % for 12 % '
+          'more time; every leaf on its own costs 2.6 times as much.')
+CHART = Chart('canopy_layers', 'error and cost of layers against every leaf on its own', ADVICE,
               'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
               draw, SOURCES,
               sized('--part', 'truth'))

@@ -4,7 +4,8 @@
 from charting import style
 from charting.chart import Chart, sized
 
-SHIFTS = {'0.0 m': 'eye still', '0.3 m': 'eye 0.3 m beside', '1.0 m': 'eye 1 m beside'}
+SHIFTS = {'0.0 m': 'eye still', '0.3 m': 'eye has moved by 0.3 m', '1.0 m': 'eye has moved by 1 m'}
+CHOSEN = 5
 COSTS = {'grids': 'moving the grids of all layers', 'leaves': 'moving 9 000 leaves'}
 
 
@@ -17,7 +18,10 @@ def draw(rows):
         error.plot([row.size for row in own], [row.value for row in own],
                    '-' + style.MARKERS[number], color=style.COLOURS[number], label=name)
         error.plot([row.size for row in predicted], [row.value for row in predicted], ':',
-                   color=style.COLOURS[number], label='predicted' if number == 0 else None)
+                   color=style.COLOURS[number], label='predicted, dotted' if number == 0 else None)
+        for row in own:
+            if row.size == CHOSEN and number == 2:
+                style.ring(error, row.size, row.value)
     for number, (what, name) in enumerate(COSTS.items()):
         own = [row for row in rows if row.what == 'cost, ' + what]
         cost.plot([row.size for row in own], [row.value for row in own],
@@ -32,7 +36,9 @@ def draw(rows):
 
 SOURCES = ('src/canopy/layers', 'src/canopy/layer_grid.cpp', 'src/canopy/leaf_motion.cpp',
            'bench/canopy_bench.cpp', 'scenes/canopy')
-CHART = Chart('canopy_pictures', 'error and cost of pictures of layers against every leaf',
+ADVICE = ('Choose pictures of 5 layers (default): within about 1 pixel once the eye has '
+          'moved by 1 m, at a seventh of the time of every leaf.')
+CHART = Chart('canopy_pictures', 'error and cost of pictures of layers against every leaf', ADVICE,
               'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
               draw, SOURCES,
               sized('--part', 'pictures'))

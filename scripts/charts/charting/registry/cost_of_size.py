@@ -38,13 +38,16 @@ def draw(rows):
                         float('%.2g' % (1e9 * seconds[-1] / sizes[-1]))))
     axes.axhline(1e3 * FRAME, color='0.3', linewidth=1.0)
     axes.annotate('a frame of 1/60 s', (0.01, 1e3 * FRAME), xycoords=('axes fraction', 'data'),
-                  xytext=(0, 3), textcoords='offset points', fontsize=8)
-    style.label(axes, 'how many', 'processor time, one core [ms]',
+                  xytext=(4, 3), textcoords='offset points', fontsize=8)
+    axes.set_ylim(top=40.0)
+    style.label(axes, 'number of trees, branches, links, blades, nodes, walkers or cells', 'processor time, one core [ms]',
                 'slope 1 is linear cost; exponents are fitted over the upper half')
     axes.legend(loc='center left', bbox_to_anchor=(1.01, 0.5), labelspacing=1.0)
     return figure
 
 
 SOURCES = ('src/tree', 'src/forest', 'src/grass', 'src/crowd', 'bench/size_bench.cpp')
-CHART = Chart('cost_of_size', 'cost over the number of trees, branches, blades, nodes',
+ADVICE = ('Plan with costs that are linear: at 60 Hz one core bears some 100 000 '
+          'physical branches, 20 000 walkers or 90 000 cells of leaf fields.')
+CHART = Chart('cost_of_size', 'cost over the number of trees, branches, blades, nodes', ADVICE,
               'size_bench', {'series': str, 'size': float, 'seconds': float}, draw, SOURCES)

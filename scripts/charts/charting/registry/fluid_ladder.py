@@ -35,7 +35,9 @@ def draw(rows):
 
 
 SOURCES = ('src/canopy/flow', 'src/canopy/plane', 'src/reference/canopy', 'bench/canopy_bench.cpp')
-CHART = Chart('fluid_ladder', 'error and cost of schemes and sizes of the air of leafy masses',
+ADVICE = ('Choose advection-reflection on 64 cells (default), shorter steps for an error '
+          'of 2 %, and one exact projection where 20 % is enough.')
+CHART = Chart('fluid_ladder', 'error and cost of schemes and sizes of the air of leafy masses', ADVICE,
               'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
               draw, SOURCES,
               sized('--part', 'steps,errors'))

@@ -40,19 +40,22 @@ def draw(rows):
         total = next(row for row in each if row.part == 'frame')
         axes.plot([total.ms, total.ms_99], [name, name], '-', color=style.BLACK, marker='|')
         axes.annotate('%.2g ms, 99 %% below %.2g ms' % (total.ms, total.ms_99),
-                      (total.ms_99, name), xytext=(6, 0), textcoords='offset points', va='center')
+                      (total.ms_99, name), xytext=(6, 0), textcoords='offset points', va='center',
+                      path_effects=style.HALO)
     for rate in (60, 30):
         axes.axvline(1e3 / rate, color=style.BLACK, linewidth=0.8, linestyle=':')
         axes.annotate('%d Hz' % rate, (1e3 / rate, -0.6), xytext=(3, 0), textcoords='offset points')
     axes.set_xlim(0.0, 1.35 * longest)
     axes.invert_yaxis()
     style.label(axes, 'median over frames [ms]; the line ends where 99 % of frames do',
-                '')
+                'scenario')
     style.legend_below(figure, [axes], 5)
     return figure
 
 
 SOURCES = ('src/tree', 'src/forest', 'src/grass', 'src/crowd', 'src/canopy', 'bench/frame',
            'bench/frame_bench.cpp')
-CHART = Chart('frame_time', 'processor time of the parts of a frame in each scenario', 'frame_bench',
+ADVICE = ('Lower the number of blades first where frames take too long: blades and '
+          'strips are the largest part of most scenarios.')
+CHART = Chart('frame_time', 'processor time of the parts of a frame in each scenario', ADVICE, 'frame_bench',
               {'scenario': str, 'part': str, 'ms': float, 'ms_99': float}, draw, SOURCES)

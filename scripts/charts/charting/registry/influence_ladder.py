@@ -8,15 +8,15 @@ from charting.tables import groups
 
 NAMES = {'influence': 'in clusters beyond a predicted influence',
          'depth': "in clusters beyond a depth, the paper's rule",
-         'all': 'without clusters: the truth, which has no error'}
+         'all': 'without clusters: the reference, drawn at 0.01 %'}
 FLOOR = 1e-2  # at which an error of zero is drawn [%]
 
 
 def draw(rows):
     depths = sorted({row.ladder.split()[1] for row in rows})
     figure, (panels,) = style.figure(
-        'How much of a tree becomes physical, the rest being rigid clusters: an oak of 532 pulled by 20 N', 1,
-        len(depths), size=(4.4, 4.4), sharey=True)
+        'Physical branches of an oak of 532 that is pulled by 20 N; the others move in rigid clusters',
+        1, len(depths), size=(4.4, 4.4), sharey=True)
     of = groups(rows, 'ladder')
     for axes, depth in zip(panels, depths):
         own = [type(row)(row, cost=1e6 * row.cost, error=100.0 * row.error)
@@ -38,5 +38,7 @@ def label(row):
 
 
 SOURCES = ('src/tree/physical', 'src/dynamics', 'bench/influence_bench.cpp')
-CHART = Chart('influence_ladder', 'error and cost of making some branches physical',
+ADVICE = ('Choose an influence of 5 mm (default), 0.5 mm for an error of a few per cent, '
+          'and all branches for references only.')
+CHART = Chart('influence_ladder', 'error and cost of making some branches physical', ADVICE,
               'influence_bench', ladders.COLUMNS, draw, SOURCES)

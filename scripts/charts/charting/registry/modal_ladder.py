@@ -10,7 +10,7 @@ COLUMNS = {'load': str, 'branches': float, 'model': str, 'modes': float, 'vector
 LOADS = ('gust', 'pull', 'breeze, oak', 'breeze, willow')
 DEFAULT = (8.0, 6.0)  # forest::ModalDepth
 VECTORS = {0.0: ('modes alone', style.BLUE, 'o'), 1.0: ('and 1 vector of the load', style.RED, 's'),
-           2.0: ('and 2 vectors', style.ORANGE, 'v'), 5.0: ('and 5 vectors', style.YELLOW, '^'),
+           2.0: ('and 2 vectors', style.ORANGE, 'v'), 5.0: ('and 5 vectors', style.WINE, '^'),
            6.0: ('and 6 vectors', style.GREEN, 'P'), 10.0: ('and 10 vectors', style.SKY, 'D')}
 OTHERS = {'procedural': ('procedural', style.PINK, 'h'),
           'paper dynamics': ("paper's dynamics, 240 Hz", style.GREY, 'X'),
@@ -20,7 +20,7 @@ OTHERS = {'procedural': ('procedural', style.PINK, 'h'),
 def draw(rows):
     loads = [name for name in LOADS if any(row.load == name for row in rows)]
     figure, panels = style.figure(
-        'A tree in modes (numbers: how many), beside the procedural and the physical tiers',
+        'A tree in modes (numbers: how many), beside procedural motion and the full chain',
         (len(loads) + 1) // 2, 2, size=(5.2, 4.0))
     panels = [axes for line in panels for axes in line]
     for axes, load in zip(panels, loads):
@@ -29,6 +29,10 @@ def draw(rows):
         axes.set_visible(False)
     style.legend_below(figure, panels[:len(loads)], 4)
     return figure
+
+
+def setting(row):
+    return '%d' % row.modes
 
 
 def draw_load(axes, load, rows):
@@ -47,17 +51,24 @@ def draw_load(axes, load, rows):
             name, colour, marker = OTHERS[row.model]
             axes.loglog([row.cost_ns], [row.error], marker, color=colour, markersize=9, label=name)
         if row.chosen:
-            style.ring(axes, row.cost_ns, row.error, left=True)
+            style.ring(axes, row.cost_ns, row.error, ladders.name_of_default(row, setting), left=True)
     style.draw_front(axes, [(row.cost_ns, row.error) for row in own])
     axes.margins(x=0.12, y=0.12)
     ladders.write_settings(axes, [(row, row.cost_ns, row.error) for row in modal],
-                           lambda row: '%d' % row.modes, left=True)
-    style.label(axes, 'cost beside forward kinematics [ns per branch and frame]',
+                           setting, left=True)
+    finding = max(row.find_ms for row in own)
+    if finding > 0.0:
+        axes.text(0.98, 0.98, 'modes are computed first, in up to %.2g ms' % finding, ha='right',
+                  va='top', transform=axes.transAxes, fontsize=7.5)
+    style.label(axes, 'processor time beside that of poses [ns per branch and frame]',
                 'error of the tips, rms [% of their motion]',
                 '%s, %d branches' % (load, branches))
 
 
 SOURCES = ('src/dynamics', 'bench/modal', 'bench/trees', 'bench/modal_bench.cpp')
-CHART = Chart('modal_ladder', 'error and cost of a tree in modes', 'modal_bench', COLUMNS,
+ADVICE = ('Choose 8 modes and 6 vectors of the load (default) for near trees, procedural '
+          'motion, which computes no modes first, for far ones, and the full chain for '
+          'what is touched.')
+CHART = Chart('modal_ladder', 'error and cost of a tree in modes', ADVICE, 'modal_bench', COLUMNS,
               draw, SOURCES,
               cached=True)

@@ -29,8 +29,8 @@ def panel(axes, growth, edge):
 def draw(rows):
     maps = groups(rows, 'map')
     methods, edges = groups(maps['growth'], 'method'), groups(maps['edge'], 'method')
-    figure, panels = style.figure('Where methods break: one joint with frequency w and damping '
-                                  'ratio D', 2, 3, size=(4.0, 3.5), sharex=True, sharey=True)
+    figure, panels = style.figure('Where methods break: one joint with frequency w [rad/s] and '
+                                  'damping ratio D', 2, 3, size=(4.0, 3.5), sharex=True, sharey=True)
     order = [DEFAULT, 'implicit Euler', None, 'semi-implicit Euler', 'explicit Euler',
              'Runge-Kutta 4']
     shown = None
@@ -59,5 +59,7 @@ def explain(axes, more):
 
 
 SOURCES = ('src/dynamics', 'bench/stability_bench.cpp')
-CHART = Chart('stability_map', 'growth per step over damping and step, theory over it',
+ADVICE = ('Choose a linearly implicit method, which is stable at every step. An explicit '
+          'one needs steps below 2 / w, and far shorter ones where damping is strong.')
+CHART = Chart('stability_map', 'growth per step over damping and step, theory over it', ADVICE,
               'stability_bench', COLUMNS, draw, SOURCES, sized('--part', 'growth'))

@@ -25,12 +25,14 @@ def draw(rows):
         axes.axvline(np.log10(1e3 / 240), color='white', linestyle=':')
         style.note(axes, np.log10(1e3 / 240), np.log10(apart[0]), 'step of the nodes', offset=(4, 4),
                    color='white')
-        style.label(axes, 'step [ms], power of ten', 'stiffest joint / softest, power of ten',
+        style.label(axes, 'log10 of the step [ms]', 'log10 of the stiffest joint over the softest',
                     f'{name}: {len(broken)} of {len(each)} not finite')
-    figure.colorbar(shown, ax=panels[-1]).set_label('[rad]; joints stop at 3')
+    figure.colorbar(shown, ax=panels[-1]).set_label('largest bend [rad]; joints stop at 3')
     return figure
 
 
 SOURCES = ('src/dynamics', 'bench/stability_bench.cpp')
-CHART = Chart('stability_storms', 'the default in a storm over step and spread of stiffness',
+ADVICE = ('Choose the default for any step and stiffness, in single or double precision: '
+          'no bend exceeds the stop of a joint.')
+CHART = Chart('stability_storms', 'the default in a storm over step and spread of stiffness', ADVICE,
               'stability_bench', COLUMNS, draw, SOURCES, sized('--part', 'storms'))

@@ -9,20 +9,22 @@ from charting.tables import groups
 
 # engine: colour, marker, line, label; peers are dashed.
 STYLES = {
-    'midpoint, plain double': (style.GREEN, 'o', '-', 'midpoint, plain (default)'),
-    'midpoint, SIMD, one tree': (style.BLUE, 'o', '-', 'midpoint, SIMD, one tree'),
+    'midpoint, plain double': (style.GREEN, 'o', '-', 'linearly implicit midpoint, double (default)'),
+    'midpoint, SIMD, one tree': (style.BLUE, 'o', '-', 'the same in vectors, single precision'),
+    'midpoint, products at start': (style.SKY, 'o', '-',
+                                    'the same, velocity products at start'),
     'implicit Euler': (style.PINK, 'v', '-', 'implicit Euler'),
     'semi-implicit Euler': (style.ORANGE, '^', '-', 'semi-implicit Euler'),
     'explicit Euler': (style.RED, '<', '-', 'explicit Euler'),
-    'Runge-Kutta 4': (style.BLACK, '>', '-', 'Runge-Kutta 4'),
-    'paper dynamics, midpoint': (style.GREY, '*', '-', "the paper's dynamics, midpoint"),
+    'Runge-Kutta 4': (style.BLACK, 'p', '-', 'Runge-Kutta 4'),
+    'paper dynamics, midpoint': (style.GREY, '*', '-', "dynamics of paper 1, midpoint"),
     'Bullet, float': (style.RED, 's', '--', 'Bullet'),
     'DART': (style.PINK, 'D', '--', 'DART'),
     'MuJoCo, Euler': (style.BLUE, 'P', '--', 'MuJoCo, Euler'),
     'MuJoCo, RK4': (style.BLACK, 'X', '--', 'MuJoCo, RK4'),
     'MuJoCo, implicit': (style.GREEN, 'P', '--', 'MuJoCo, implicit'),
-    'MuJoCo, our midpoint': (style.BLUE, '*', '--', 'MuJoCo, our midpoint'),
-    'DART, our midpoint': (style.PINK, '*', '--', 'DART, our midpoint'),
+    'MuJoCo, our midpoint': (style.BLUE, '*', '--', 'MuJoCo, with this midpoint'),
+    'DART, our midpoint': (style.PINK, '*', '--', 'DART, with this midpoint'),
     'Simbody, Euler': (style.GREY, 's', '--', 'Simbody, Euler'),
     'Simbody, RK4': (style.GREY, 'X', '--', 'Simbody, RK4'),
     'position-based': (style.ORANGE, 'D', '--', 'position-based'),
@@ -61,7 +63,7 @@ def bounds(axes, rows):
             axes.plot([row.ms_per_simulated_second], [row.error], '>', markersize=7, color=colour,
                       markerfacecolor=colour if row.kind == 'peer' else 'none')
     axes.plot([], [], '>', markersize=7, markerfacecolor='none', color='0.3',
-              label='costs more than this (time cap); filled: a peer')
+              label='costs more; filled: other engines')
 
 
 def panel(axes, engines):
@@ -73,9 +75,10 @@ def panel(axes, engines):
     style.draw_front(axes, [p[:2] for points in engines.values() for p in points])
     if DEFAULT in engines:
         near = min(engines[DEFAULT], key=lambda p: abs(math.log(p[2] / STEPS)))
-        style.ring(axes, near[0], near[1], 'default, 1/%.0f s' % near[2])
+        style.ring(axes, near[0], near[1], 'default, step of 1/%.0f s' % near[2])
     for target in (1e-1, 1e-2, 1e-3):
-        axes.axhline(target, color='0.5', linewidth=0.8, linestyle=':')
+        axes.axhline(target, color='0.5', linewidth=0.8, linestyle=':',
+                     label='errors of 10, 1 and 0.1 %')
     least = min(p[1] for points in engines.values() for p in points)
     axes.set_ylim(min(1e-4, 0.3 * least), 2.0)
 
@@ -84,8 +87,7 @@ def draw(rows):
     cells = groups(rows, 'tree', 'branches', 'load')
     columns = 2 if len(cells) > 1 else 1
     lines = math.ceil(len(cells) / columns)
-    figure, panels = style.figure('Work and precision: a tree under a load, all on the same '
-                                  'tree', lines, columns, size=(5.6, 3.7 if lines > 1 else 4.8))
+    figure, panels = style.figure('Work and precision of every method and engine on the same tree', lines, columns, size=(5.6, 3.7 if lines > 1 else 4.8))
     for axes, key in zip(panels.flat, sorted(cells)):
         panel(axes, curves(cells[key]))
         bounds(axes, cells[key])
@@ -112,6 +114,9 @@ def runs(extent):
 
 
 SOURCES = ('src/dynamics', 'bench/trees', 'bench/peers', 'bench/physics_bench.cpp')
-CHART = Chart('work_precision', 'error and cost of every integrator, dynamics and peer',
+ADVICE = ('Choose the linearly implicit midpoint (default), the cheapest at every '
+          'accuracy; the nodes step it in vectors. Choose a shorter step for a tree that '
+          'is pulled hard, and Runge-Kutta 4 for references only.')
+CHART = Chart('work_precision', 'error and cost of every integrator, dynamics and peer', ADVICE,
               'physics_bench', COLUMNS, draw, SOURCES,
               {extent: runs(extent) for extent in ('quick', 'usual', 'full')}, cached=True)
