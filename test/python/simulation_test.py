@@ -8,8 +8,12 @@ from unittest import mock
 import roslib.packages
 import rospy
 import rostest
+from nav_msgs.msg import OccupancyGrid
 from vegetation_sim import Crowd, Simulation, VegetationError
-from vegetation_sim.msg import AgentStates, ForestState
+from vegetation_sim.msg import AgentStates, CrowdEvent, ForestState
+
+from waiting import wait_for
+from watched_node import publisher
 
 STEPS = 200
 
@@ -22,6 +26,16 @@ def episode(simulation, crowd):
             crowd.send([0, 1], (0.03 * step - 5.0, 5.0))
         hashes.append(simulation.step()['/agents'].hash)
     return hashes
+
+
+def cover(stamp):
+    out = OccupancyGrid()
+    out.header.frame_id, out.header.stamp = 'map', stamp
+    out.info.width = out.info.height = 40
+    out.info.resolution = 1.0
+    out.info.origin.position.x = out.info.origin.position.y = -20.0
+    out.data = [80 + int(stamp.to_sec()) % 20] * 1600  # each map has another hash
+    return out
 
 
 class SimulationTest(unittest.TestCase):
@@ -37,6 +51,26 @@ class SimulationTest(unittest.TestCase):
         self.assertEqual(episode(self.simulation, self.crowd), first)
         self.simulation.reset()
         self.assertNotEqual(self.simulation.step(STEPS)['/agents'].hash, first[-1])
+
+    def send_cover(self, stamp):
+        """Sends a map of grass that resists, and steps until it acts."""
+        events = []
+        subscriber = rospy.Subscriber('/agents/events', CrowdEvent, events.append)
+        sender = publisher('/grass/cover/resistance', OccupancyGrid)
+        wait_for(lambda: sender.get_num_connections() and subscriber.get_num_connections(),
+                 'agent_crowd')
+        sender.publish(cover(stamp))
+        wait_for(lambda: self.simulation.step() and any(
+            event.kind == CrowdEvent.COVER for event in list(events)), 'the cover to act')
+        subscriber.unregister()
+
+    # The meadow that has sent it starts afresh too.
+    def test_a_reset_forgets_a_cover_of_a_later_time(self):
+        first = episode(self.simulation, self.crowd)
+        self.send_cover(self.simulation.stamp())
+        self.assertEqual(episode(self.simulation, self.crowd), first)
+        self.send_cover(rospy.Time(1))  # of a map that does not change
+        self.assertNotEqual(episode(self.simulation, self.crowd), first)
 
     def test_each_step_is_one_tick(self):
         before = self.simulation.reset()['/agents'].header.stamp

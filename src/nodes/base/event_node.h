@@ -83,10 +83,10 @@ class EventNode : public SavedNode<Queue, Options> {
 
   /// Adds the node's subscribers, services and timers.
   virtual void connect() = 0;
-  /// Becomes what a fresh start would be, after the clock has jumped back.
-  virtual void restart() = 0;
-  /// Whether a live event that waits is void once the clock has jumped back.
-  virtual bool isOutdated(const Event& event) const = 0;
+  /// Becomes what a fresh start would be, after the clock has jumped back to `now`.
+  virtual void restart(Nanoseconds now) = 0;
+  /// Whether a live event that waits is void once the clock has jumped back to `now`.
+  virtual bool isOutdated(const Event& event, Nanoseconds now) const = 0;
   /// Whether a replay applies this recorded event.
   virtual bool isInput(const Event&) const { return true; }
   /// Takes a viewer of the markers. A node whose state depends on viewers makes events of them.
@@ -311,12 +311,12 @@ class EventNode : public SavedNode<Queue, Options> {
 
   void onJumpBack(Nanoseconds now) {
     inputs_.forget([&](const Event& event) {
-      return options_.replay ? stampOf(event) > now : isOutdated(event);
+      return options_.replay ? stampOf(event) > now : isOutdated(event, now);
     });
     this->forgetCheckpoint();
     tf_buffer_.clear();
     viewers_.clear();
-    restart();
+    restart(now);
   }
 
   const char* events_topic_;

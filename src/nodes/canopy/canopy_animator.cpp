@@ -125,13 +125,13 @@ wind::Field CanopyAnimator::windOf(std::uint64_t hash) const {
   throw InvalidInput("wind_hash = " + std::to_string(hash) + " matches no wind received");
 }
 
-bool CanopyAnimator::isOutdated(const CanopyEvent& event) const {
+bool CanopyAnimator::isOutdated(const CanopyEvent& event, Nanoseconds /*now*/) const {
   return event.kind == CanopyEvent::VIEWER || event.kind == CanopyEvent::BODY ||
          event.kind == CanopyEvent::REMOVE_BODY || event.kind == CanopyEvent::CUT;
 }
 
 // Layout, wind and settings stay in force.
-void CanopyAnimator::restart() {
+void CanopyAnimator::restart(Nanoseconds /*now*/) {
   canopy_.reset();
   canopy_.setViewer(std::nullopt);
   viewer_.reset();

@@ -43,7 +43,7 @@ class CanopyAnimator final
   void onViewer(const Viewer& message) override;
   void showTuning(CanopyAnimatorConfig& config) const override;
   CanopyEvent tuningEvent(const CanopyAnimatorConfig& config) const override;
-  bool isOutdated(const CanopyEvent& event) const override;
+  bool isOutdated(const CanopyEvent& event, Nanoseconds now) const override;
   void forgetViewer();
   void publishBeginning(Nanoseconds stamp);
   void updateCrowns();
@@ -58,7 +58,7 @@ class CanopyAnimator final
   void applyCut(CanopyEvent& event);
   /// A wind received lately, or calm. @throws InvalidInput for any other hash.
   wind::Field windOf(std::uint64_t hash) const;
-  void restart() override;
+  void restart(Nanoseconds now) override;
   void onRecovered(const CanopyEvent& event) override;
 
   // Snapshots.

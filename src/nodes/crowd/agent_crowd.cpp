@@ -198,12 +198,27 @@ void AgentCrowd::resetCrowd(crowd::CrowdShard::Start start) {
   trodden_.clear();
 }
 
-bool AgentCrowd::isOutdated(const CrowdEvent& event) const {
-  return event.kind <= CrowdEvent::REMOVE_ROBOT;
+bool AgentCrowd::isLaterCover(std::uint64_t hash, Nanoseconds now) const {
+  const nav_msgs::OccupancyGrid* cover = covers_.find(hash);
+  return cover != nullptr && fromMsg(cover->header.stamp) > now;
 }
 
-void AgentCrowd::restart() {
+// The meadow that has sent it starts afresh too.
+void AgentCrowd::forgetLaterCover(Nanoseconds now) {
+  if (isLaterCover(heard_cover_, now)) heard_cover_ = 0;
+  if (!isLaterCover(cover_hash_, now)) return;
+  cover_hash_ = 0;
+  crowd_.setResistance({});
+}
+
+bool AgentCrowd::isOutdated(const CrowdEvent& event, Nanoseconds now) const {
+  return event.kind <= CrowdEvent::REMOVE_ROBOT ||
+         (event.kind == CrowdEvent::COVER && isLaterCover(event.input_hash, now));
+}
+
+void AgentCrowd::restart(Nanoseconds now) {
   resetCrowd(crowd::CrowdShard::Start::FRESH);
+  forgetLaterCover(now);
   if (inbox_) inbox_->jumpBack();
   if (parts_) parts_->jumpBack();
   sensors_.clear();

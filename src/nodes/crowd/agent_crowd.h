@@ -53,7 +53,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void onSensor(const SensorInterest& message);
   void showTuning(AgentCrowdConfig& config) const override { toConfig(options_.tuning, config); }
   CrowdEvent tuningEvent(const AgentCrowdConfig& config) const override;
-  bool isOutdated(const CrowdEvent& event) const override;
+  bool isOutdated(const CrowdEvent& event, Nanoseconds now) const override;
   void followRobots(Nanoseconds stamp);
   /// Queues an event that names a message by its hash.
   /// @param stamp of the tick at which it acts; 0: the next one.
@@ -80,8 +80,11 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void surround(const Surroundings& around);
   void applyTrunks(std::uint64_t hash);
   void applyCover(std::uint64_t hash);
+  bool isLaterCover(std::uint64_t hash, Nanoseconds now) const;
+  /// Drops a cover map whose stamp is later than the clock, which has jumped back.
+  void forgetLaterCover(Nanoseconds now);
   void resetCrowd(crowd::CrowdShard::Start start);
-  void restart() override;
+  void restart(Nanoseconds now) override;
   void onRecovered(const CrowdEvent&) override { updateNextId(); }
 
   // Snapshots.

@@ -83,11 +83,11 @@ void ForestAnimator::resetForest() {
   force_key_frame_ = true;
 }
 
-bool ForestAnimator::isOutdated(const ForestInput& event) const {
+bool ForestAnimator::isOutdated(const ForestInput& event, Nanoseconds /*now*/) const {
   return event.kind == ForestInput::SENSOR || event.kind >= ForestInput::GRAB;
 }
 
-void ForestAnimator::restart() {
+void ForestAnimator::restart(Nanoseconds /*now*/) {
   resetForest();
   grab_manager_.clear();
   bodies_.clear();

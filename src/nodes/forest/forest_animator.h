@@ -51,10 +51,10 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   void onSensor(const SensorInterest& message);
   void showTuning(ForestAnimatorConfig& config) const override;
   ForestInput tuningEvent(const ForestAnimatorConfig& config) const override;
-  bool isOutdated(const ForestInput& event) const override;
+  bool isOutdated(const ForestInput& event, Nanoseconds now) const override;
 
   // Time.
-  void restart() override;
+  void restart(Nanoseconds now) override;
   void onRecovered(const ForestInput& event) override;
   void resetForest();
   void tick(std::int64_t tick) override;

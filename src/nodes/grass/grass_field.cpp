@@ -93,7 +93,6 @@ void GrassField::connect() {
     subscribe("treads", 1000, &GrassField::onTreads);
   }
   subscribe("forest/sensors", 40, &GrassField::onSensor);
-  if (!isPart()) repeat(options_.cover_rate, &GrassField::sendCover);
   connectServices();
 }
 
@@ -109,7 +108,7 @@ void GrassField::tick(std::int64_t tick) {
   if (whole_) followWhole(stamp);
   publishState(tick);
   publishForces(stamp);
-  if (isPart()) sendCoverOfShard(tick);
+  sendCoverAt(tick);
 }
 
 void GrassField::apply(GrassEvent& event) {
@@ -177,7 +176,7 @@ void GrassField::resetGround() {
   key_frames_.demand();
 }
 
-bool GrassField::isOutdated(const GrassEvent& event) const {
+bool GrassField::isOutdated(const GrassEvent& event, Nanoseconds /*now*/) const {
   return event.kind == GrassEvent::TREAD || event.kind == GrassEvent::CLEAR ||
          event.kind == GrassEvent::CUT || event.kind == GrassEvent::COLOURS;
 }
@@ -199,7 +198,7 @@ void GrassField::setColours(grass::ColourMasks colours) {
   colours_publisher_.publish(message);
 }
 
-void GrassField::restart() {
+void GrassField::restart(Nanoseconds /*now*/) {
   coloured_ = false;
   sensors_.clear();
   resetGround();

@@ -57,7 +57,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
   /// ENTER is an output of the recorded node.
   bool isInput(const GrassEvent& event) const override { return event.kind != GrassEvent::ENTER; }
-  bool isOutdated(const GrassEvent& event) const override;
+  bool isOutdated(const GrassEvent& event, Nanoseconds now) const override;
   void followSources(Nanoseconds stamp);
   void followCutters(Nanoseconds stamp);
   TreadEvent inWorld(const TreadEvent& message) const;
@@ -75,7 +75,7 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void colourAsInScenario(Nanoseconds stamp);
   void applyTuning(GrassTuning tuning);
   void resetGround();
-  void restart() override;
+  void restart(Nanoseconds now) override;
   void onRecovered(const GrassEvent& event) override;
 
   // Snapshots.
@@ -93,8 +93,8 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   GrassForces forcesAt(Nanoseconds stamp) const;
   void publishForces(Nanoseconds stamp);
   void sendCover();
-  /// Shards make their maps at the same ticks.
-  void sendCoverOfShard(std::int64_t tick);
+  /// Maps are made at ticks, so that runs repeat, and those of shards at the same ones.
+  void sendCoverAt(std::int64_t tick);
   void sendCoverPart();
   const GrassCover& untroddenCover();
   GrassCover makeCover();

@@ -126,7 +126,7 @@ void GrassField::sendCover() {
   publishCover(std::move(cover));
 }
 
-void GrassField::sendCoverOfShard(std::int64_t tick) {
+void GrassField::sendCoverAt(std::int64_t tick) {
   if (covers_) followCoverParts(isCoverWanted());
   const std::int64_t period = periodOf(tick, options_.cover_rate, clock_.grid().rate());
   if (std::exchange(cover_period_, period) == period || recovers()) return;
