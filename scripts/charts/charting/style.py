@@ -146,7 +146,7 @@ def write_advice(out, text):
              fontsize=9.5, fontweight='bold')
     for legend in out.legends:
         legend.set_bbox_to_anchor((0.5, height / out.get_figheight()), transform=out.transFigure)
-        height += legend.get_window_extent().height / out.dpi + 0.1
+        height += legend.get_window_extent(out.canvas.get_renderer()).height / out.dpi + 0.1
     leave_below(out, height)
 
 

@@ -200,6 +200,7 @@ void GrassField::setColours(grass::ColourMasks colours) {
 
 void GrassField::restart(Nanoseconds /*now*/) {
   coloured_ = false;
+  cover_period_ = -1;  // as at a start, the first tick has a map
   sensors_.clear();
   resetGround();
   publishLayout();
