@@ -23,14 +23,10 @@ from forest_rig import scene, start_node, stop
 from waiting import wait_for
 from watched_node import listens
 
-# Treads and covers go from node to node at any time, so that runs differ. Here people leave no
-# tracks and do not feel the grass.
 NODES = {
     'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {'frame_wait': 5.0},
-    'grass_field': {},
-    'agent_crowd': {'tread': 'none'},
+    'grass_field': {'frame_wait': 5.0}, 'agent_crowd': {'frame_wait': 5.0},
 }
-REMAPPINGS = {'agent_crowd': {'grass/cover/resistance': 'no_cover'}}
 SAVED, LATER = 90, 600
 
 
@@ -39,8 +35,8 @@ class SceneTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         demo = os.path.join(os.path.dirname(scene('forest')), 'demo.yaml')
-        cls.processes = [start_node(node, '/scene/' + node, REMAPPINGS.get(node, {}),
-                                    scenario=demo, snapshot_folder=cls.folder, **parameters)
+        cls.processes = [start_node(node, '/scene/' + node, {}, scenario=demo,
+                                    snapshot_folder=cls.folder, **parameters)
                          for node, parameters in NODES.items()]
         cls.simulation = Simulation({
             '/scene/agents': AgentStates, '/scene/forest/state': ForestState,
@@ -49,6 +45,8 @@ class SceneTest(unittest.TestCase):
             wait_for(lambda: listens('/scene/' + node, '/clock'), node)
         for node in ('forest_animator', 'canopy_animator'):
             wait_for(lambda: listens('/scene/' + node, '/scene/wind'), node)
+        wait_for(lambda: listens('/scene/grass_field', '/scene/treads'), 'treads')
+        wait_for(lambda: listens('/scene/agent_crowd', '/scene/grass/cover/resistance'), 'covers')
         cls.scene = Scene('/scene')
         cls.simulation.reset()
         # After the second step every node uses the published wind.

@@ -14,6 +14,7 @@ namespace {
 constexpr int RELEASE_PERIOD = 10;     // reports between two releases of freed memory
 constexpr double BEAT_PERIOD = 0.2;    // [s] of wall time
 constexpr double SHORTEST_WAIT = 0.7;  // that is reported [s]
+constexpr double LONGEST_LOOK = 0.05;  // for awaited messages [s]
 
 ros::NodeHandle handleOf(ros::NodeHandle handle, ClosableQueue& callbacks) {
   handle.setCallbackQueue(&callbacks);
@@ -32,6 +33,17 @@ NodeBase::NodeBase(const std::string& name, const ros::NodeHandle& handle,
       refused_requests_(name, "request"),
       diagnostics_(handle_, private_handle_, private_handle.getNamespace()) {
   diagnostics_.setHardwareID("none");
+}
+
+bool NodeBase::awaitInputs(double wait, const std::function<bool()>& is_complete) {
+  awaited_.callAvailable();
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(wait);
+  while (!is_complete()) {
+    const ros::WallDuration left = deadline - ros::WallTime::now();
+    if (left <= ros::WallDuration(0.0) || !ros::ok()) return false;
+    awaited_.callAvailable(std::min(left, ros::WallDuration(LONGEST_LOOK)));
+  }
+  return true;
 }
 
 void NodeBase::startDiagnostics() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -38,21 +39,34 @@ class NodeBase {
            const ros::NodeHandle& private_handle);
   virtual ~NodeBase() = default;
 
+  /// When the callbacks of a topic run: as soon as they can, or in awaitInputs() only.
+  enum class Delivery { AT_ONCE, AWAITED };
   template <class Node, class Message>
-  void subscribe(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
+  ros::Subscriber subscribe(const char* topic, unsigned queue,
+                            void (Node::*callback)(const Message&),
+                            Delivery delivery = Delivery::AT_ONCE) {
     using Event = ros::MessageEvent<Message const>;
     const boost::function<void(const Event&)> guarded = [this, topic,
                                                          callback](const Event& event) {
       const ClientScope scope(client_, event.getPublisherName());
       acceptInput(topic, [&] { (static_cast<Node*>(this)->*callback)(*event.getMessage()); });
     };
-    subscribers_.push_back(subscribeWithoutDelay<Message>(handle_, topic, queue, guarded));
+    ros::NodeHandle handle = handle_;
+    if (delivery == Delivery::AWAITED) handle.setCallbackQueue(&awaited_);
+    subscribers_.push_back(subscribeWithoutDelay<Message>(handle, topic, queue, guarded));
+    return subscribers_.back();
   }
+  /// Runs the callbacks of awaited topics until `is_complete()`. @param wait longest wall time [s].
+  /// @return is_complete()
+  bool awaitInputs(double wait, const std::function<bool()>& is_complete);
   /// Subscribes to a topic that one node owns; diagnose with warnOfRivals().
   template <class Node, class Message>
-  void subscribeToOwner(const char* topic, unsigned queue, void (Node::*callback)(const Message&)) {
-    subscribe(topic, queue, callback);
+  ros::Subscriber subscribeToOwner(const char* topic, unsigned queue,
+                                   void (Node::*callback)(const Message&),
+                                   Delivery delivery = Delivery::AT_ONCE) {
+    subscribe(topic, queue, callback, delivery);
     owned_.push_back({subscribers_.back(), {}, 1});
+    return subscribers_.back();
   }
   /// Subscribes to a topic that each shard publishes with the same content, or one node if there
   /// are no shards; diagnose with warnOfRivals(). @param shards topic on which they announce
@@ -246,6 +260,7 @@ class NodeBase {
   void beat();
   void announceShard();
 
+  ros::CallbackQueue awaited_;  // outlives the subscribers
   std::vector<ros::Subscriber> subscribers_;
   std::vector<OwnedTopic> owned_;
   std::unique_ptr<ShardRequests> shards_;

@@ -68,6 +68,8 @@ class SavedNode : public NodeBase {
   }
   /// Called for each input between ticks that recover() puts into the queue again.
   virtual void onRecovered(const Event&) {}
+  /// Waits for inputs that a snapshot of this tick shall have.
+  virtual void awaitInputsToSave() {}
   /// Called when the state has been loaded.
   virtual void onLoaded() {}
 
@@ -252,7 +254,10 @@ class SavedNode : public NodeBase {
   }
 
   bool onSave(SaveSnapshot::Request& request, SaveSnapshot::Response& response) {
-    return answer(response, [&] { return snapshots_.save(request.name, response); });
+    return answer(response, [&] {
+      awaitInputsToSave();
+      return snapshots_.save(request.name, response);
+    });
   }
 
   bool onLoad(LoadSnapshot::Request& request, LoadSnapshot::Response& response) {

@@ -28,7 +28,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
              options_.scene.terrain),
       markers_(crowd_, options_.marker_points, options_.tolerance, options_.motions,
                options_.shard.value_or(Shard())),
-      robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait) {
+      robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait),
+      cover_wait_(options_.cover_rate, options_.state_rate) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
   join("crowd", listMessages<AgentStates, CrowdBorder, CrowdPart>(), peopleHash(),
@@ -60,14 +61,18 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   } else {
     parts_publisher_ = handle_.advertise<CrowdPart>("agents/parts", 100);
   }
-  treads_publisher_ = handle_.advertise<TreadEvents>("treads", 1000);
+  treads_publisher_ = handle_.advertise<TreadEvents>(
+      "treads", 1000, [this](const ros::SingleSubscriberPublisher& subscriber) {
+        if (awaitsNodes()) subscriber.publish(emptyTreads());
+      });
   start("crowd", "agents/markers", markers_);
   publishBorder();
 }
 
 void AgentCrowd::connect() {
   subscribeToShardedOwner("forest/layout", 4, &AgentCrowd::onLayout, "forest/shards");
-  subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover);
+  covers_subscriber_ = subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover,
+                                        awaitsNodes() ? Delivery::AWAITED : Delivery::AT_ONCE);
   if (showsAll()) subscribe("forest/sensors", 40, &AgentCrowd::onSensor);
   if (isPart() && showsAll())
     parts_subscriber_ = subscribeToShards("agents/parts", 1000, &AgentCrowd::onPart);
@@ -103,6 +108,7 @@ void AgentCrowd::tick(std::int64_t) {
   if (!begun_ && !options_.replay) publishBeginning(stamp);
   begun_ = true;
   if (!options_.replay) {
+    awaitCover(stamp);
     followRobots(stamp);
     hearBorders(stamp);
   }
@@ -112,7 +118,7 @@ void AgentCrowd::tick(std::int64_t) {
   crowd_.advance(stamp);
   publishAgents(stamp);
   publishView(stamp);
-  publishTreads(stamp);
+  publishTreads();
   endTickOfShard();
 }
 
@@ -200,7 +206,9 @@ void AgentCrowd::resetCrowd(crowd::CrowdShard::Start start) {
 
 bool AgentCrowd::isLaterCover(std::uint64_t hash, Nanoseconds now) const {
   const nav_msgs::OccupancyGrid* cover = covers_.find(hash);
-  return cover != nullptr && fromMsg(cover->header.stamp) > now;
+  if (cover == nullptr) return false;
+  const Nanoseconds stamp = fromMsg(cover->header.stamp);
+  return stamp > now || (awaitsNodes() && stamp == now);  // in lock-step, of the run before
 }
 
 // The meadow that has sent it starts afresh too.
@@ -219,6 +227,7 @@ bool AgentCrowd::isOutdated(const CrowdEvent& event, Nanoseconds now) const {
 void AgentCrowd::restart(Nanoseconds now) {
   resetCrowd(crowd::CrowdShard::Start::FRESH);
   forgetLaterCover(now);
+  cover_wait_.jumpBack();
   if (inbox_) inbox_->jumpBack();
   if (parts_) parts_->jumpBack();
   sensors_.clear();

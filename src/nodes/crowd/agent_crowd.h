@@ -27,6 +27,7 @@
 #include "core/lod/interest_regions.h"
 #include "crowd/agents/crowd_shard.h"
 #include "nodes/base/event_node.h"
+#include "nodes/crowd/cover_wait.h"
 #include "nodes/crowd/crowd_options.h"
 #include "nodes/crowd/crowd_robots.h"
 #include "nodes/crowd/shards/border_inbox.h"
@@ -50,6 +51,9 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void connect() override;
   void onLayout(const ForestLayout& message);
   void onCover(const nav_msgs::OccupancyGrid& message);
+  void awaitCover(Nanoseconds stamp);
+  /// Whether the newest cover map of this tick or an earlier one has come, or none is to come.
+  bool hasCoverOf(Nanoseconds tick) const;
   void onSensor(const SensorInterest& message);
   void showTuning(AgentCrowdConfig& config) const override { toConfig(options_.tuning, config); }
   CrowdEvent tuningEvent(const AgentCrowdConfig& config) const override;
@@ -96,6 +100,7 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::string inputOf(const CrowdEvent& event) const override;
   std::function<void()> readInput(CrowdEvent& event, const std::string& bytes,
                                   Nanoseconds shift) override;
+  void awaitInputsToSave() override;
 
   // Shards.
   std::uint64_t scenarioHash() const;
@@ -129,7 +134,13 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void publishView(Nanoseconds stamp);
   void sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp);
   void publishMotions();
-  void publishTreads(Nanoseconds stamp);
+  void publishTreads();
+  /// Stamp at which the treads of the last tick act.
+  Nanoseconds stampOfTreads() const;
+  /// Returns the message of the last tick, without its treads.
+  TreadEvents emptyTreads() const;
+  /// Whether ticks await what other nodes send.
+  bool awaitsNodes() const { return options_.frame_wait > 0.0 && !options_.replay; }
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);
@@ -173,9 +184,12 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   std::uint32_t next_id_{0};  // of the next walker that a request adds
   HashedCache<ForestLayout> layouts_;
   HashedCache<nav_msgs::OccupancyGrid> covers_;
-  std::uint64_t trunks_hash_{0}, cover_hash_{0};    // of the messages in force; 0: none
-  std::uint64_t heard_layout_{0}, heard_cover_{0};  // of the newest ones
-  bool is_first_tick_{true};                        // of the process
+  ros::Subscriber covers_subscriber_;
+  CoverWait cover_wait_;
+  std::uint64_t unsent_covers_{0}, reported_unsent_{0};  // awaited in vain; on /diagnostics
+  std::uint64_t trunks_hash_{0}, cover_hash_{0};         // of the messages in force; 0: none
+  std::uint64_t heard_layout_{0}, heard_cover_{0};       // of the newest ones
+  bool is_first_tick_{true};                             // of the process
   bool begun_{false};  // a tick was done since the start or the last jump back
   std::size_t trunks_{0};
   TierHysteresis held_frames_;   // 1: has one

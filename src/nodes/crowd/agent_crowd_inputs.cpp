@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::uint32_t MOST_AT_ONCE = 1000;
 constexpr double VARIETY = 0.12;  // of people who come together
-/// Time between the tick of a cover map and the tick at which all shards apply it.
-constexpr Nanoseconds COVER_LEAD = NANOSECONDS_PER_SECOND / 5;
 
 }  // namespace
 
@@ -45,16 +43,30 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
   acceptInput("grass/cover/resistance", [&] {
     checkFrame(message.header.frame_id, options_.frame_id);
     resistanceOf(message);  // checks it
+    const Nanoseconds made = fromMsg(message.header.stamp);
+    if (awaitsNodes() && !cover_wait_.hear(made, clock_.stamp())) return;
     const std::uint64_t hash = hashOf(message);
     if (hash == heard_cover_) return;
     covers_.keep(hash, message);
     heard_cover_ = hash;
     // A map of another clock acts at the next tick.
-    const Nanoseconds stamp = fromMsg(message.header.stamp) + COVER_LEAD;
-    const bool is_soon =
-        clock_.hasBegun() && stamp > clock_.stamp() && stamp <= clock_.stamp() + 2 * COVER_LEAD;
+    const Nanoseconds stamp = made + CoverWait::LEAD;
+    const bool is_soon = clock_.hasBegun() && stamp > clock_.stamp() &&
+                         stamp <= clock_.stamp() + 2 * CoverWait::LEAD;
     enqueueHash(CrowdEvent::COVER, hash, is_soon ? stamp : 0);
   });
+}
+
+void AgentCrowd::awaitCover(Nanoseconds stamp) {
+  if (!awaitsNodes()) return;
+  cover_wait_.begin(stamp);
+  if (awaitInputs(options_.frame_wait, [&] { return hasCoverOf(stamp - CoverWait::LEAD); })) return;
+  cover_wait_.giveUp();
+  ++unsent_covers_;
+}
+
+bool AgentCrowd::hasCoverOf(Nanoseconds tick) const {
+  return covers_subscriber_.getNumPublishers() == 0 || cover_wait_.hasMapOf(tick);
 }
 
 // Sensors affect what is sent to them, so they are no events.

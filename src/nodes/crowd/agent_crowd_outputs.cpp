@@ -84,12 +84,24 @@ void AgentCrowd::publishMotions() {
   motions_publisher_.publish(message);
 }
 
-void AgentCrowd::publishTreads(Nanoseconds stamp) {
+TreadEvents AgentCrowd::emptyTreads() const {
+  TreadEvents out;
+  out.header.frame_id = options_.frame_id;
+  if (clock_.hasBegun()) out.header.stamp = toStamp(clock_.stamp());
+  if (!awaitsNodes()) return out;
+  out.complete_until = ros::Time(0, 1);  // before the first tick there are none
+  if (clock_.hasBegun()) out.complete_until = toStamp(stampOfTreads());
+  return out;
+}
+
+Nanoseconds AgentCrowd::stampOfTreads() const {
+  return clock_.grid().timeOf(clock_.tick() + options_.tread_ahead);
+}
+
+void AgentCrowd::publishTreads() {
   if (options_.tread == Treading::NONE) return;
-  TreadEvents treads;
-  treads.header.stamp = toStamp(stamp);
-  treads.header.frame_id = options_.frame_id;
-  stamp = clock_.grid().timeOf(clock_.grid().tickAt(stamp) + options_.tread_ahead);
+  TreadEvents treads = emptyTreads();
+  const Nanoseconds stamp = stampOfTreads();
   for (const crowd::Walker& walker : crowd_.walkers()) {
     if (options_.tread == Treading::BODY)
       treadOfBody(walker, stamp, treads);
@@ -100,7 +112,8 @@ void AgentCrowd::publishTreads(Nanoseconds stamp) {
     entry = crowd_.find(entry->first) || (shard_ && shard_->isHanded(entry->first))
                 ? std::next(entry)
                 : trodden_.erase(entry);
-  if (treads.events.empty() || recovers()) return;  // those of ticks that run again were published
+  if (recovers()) return;  // those of ticks that run again were published
+  if (treads.events.empty() && !awaitsNodes()) return;
   treads_ += treads.events.size();
   treads_publisher_.publish(treads);
 }
@@ -195,6 +208,9 @@ void AgentCrowd::sendFrames() {
 
 void AgentCrowd::addDiagnostics(Status& status) {
   robots_.missing().warn(name_, status);
+  warnOfMore(status, unsent_covers_, reported_unsent_,
+             "times that a cover map did not come within frame_wait");
+  reported_unsent_ = unsent_covers_;
   const std::uint64_t dropped = inbox_ ? inbox_->dropped() : 0;
   warnOfMore(status, dropped, reported_dropped_, "borders of shards dropped, too large");
   reported_dropped_ = dropped;

@@ -136,6 +136,7 @@ CheckedState AgentCrowd::readState(Archive& a) {
             publishBorder();
             options_.tuning = read.settings;
             begun_ = true;
+            cover_wait_.onLoaded(read.stamp);
             updateNextId();
             queueNewerInputs();
             // Subscribers that take people of the tick before need them.
@@ -149,9 +150,19 @@ void AgentCrowd::queueNewerInputs() {
   event.kind = CrowdEvent::TRUNKS;
   event.input_hash = heard_layout_;
   if (heard_layout_ != 0 && heard_layout_ != trunks_hash_) inputs_.add(event);
+  if (awaitsNodes()) {  // the meadow has loaded the state that fits this cover
+    heard_cover_ = 0;
+    return;
+  }
   event.kind = CrowdEvent::COVER;
   event.input_hash = heard_cover_;
   if (heard_cover_ != 0 && heard_cover_ != cover_hash_) inputs_.add(event);
+}
+
+// A map of the last tick waits in the queue, which is saved.
+void AgentCrowd::awaitInputsToSave() {
+  if (awaitsNodes() && clock_.hasBegun())
+    awaitInputs(options_.frame_wait, [this] { return hasCoverOf(clock_.stamp()); });
 }
 
 std::string AgentCrowd::inputOf(const CrowdEvent& event) const {

@@ -34,12 +34,13 @@ struct CrowdOptions : NodeOptions {
   CrowdOptions() { marker_points = 120000; }
 
   double tolerance{1.0};     ///< error of drawn walkers [pixel]
-  double frame_wait{0.0};    ///< for the transforms of robots at a tick [s]
+  double frame_wait{0.0};    ///< for the robots and the cover map of a tick [s]
   double tf_rate{15.0};      ///< [Hz]
   int tf_budget{20};         ///< frames: nearest to robots, then lowest ids
   std::string frame_prefix;  ///< precedes walker_<id>
   Treading tread{Treading::BODY};
   double tread_radius{0.0};  ///< 0: 0.16 of a body, 0.06 of a foot [m]
+  double cover_rate{2.0};    ///< of the meadow whose cover maps ticks await [Hz]
   int tread_ahead{0};        ///< ticks from that of the people to that of their treads
   TrunkShape trunks{TrunkShape::ROUND};
   int most_trunks{100000};           ///< near the area

@@ -90,7 +90,8 @@ void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay) {
     subscribe("tread", EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-    subscribe("treads", 1000, &GrassField::onTreads);
+    subscribe("treads", 1000, &GrassField::onTreads,
+              awaitsNodes() ? Delivery::AWAITED : Delivery::AT_ONCE);
   }
   subscribe("forest/sensors", 40, &GrassField::onSensor);
   connectServices();
@@ -100,6 +101,7 @@ void GrassField::tick(std::int64_t tick) {
   const Nanoseconds stamp = clock_.stamp();
   if (!coloured_) colourAsInScenario(stamp);
   if (!options_.replay) {
+    awaitTreads(stamp);
     followSources(stamp);
     followCutters(stamp);
   }
@@ -201,6 +203,7 @@ void GrassField::setColours(grass::ColourMasks colours) {
 void GrassField::restart(Nanoseconds /*now*/) {
   coloured_ = false;
   cover_period_ = -1;  // as at a start, the first tick has a map
+  tread_senders_.jumpBack();
   sensors_.clear();
   resetGround();
   publishLayout();

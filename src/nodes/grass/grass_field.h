@@ -31,6 +31,7 @@
 #include "nodes/grass/grass_options.h"
 #include "nodes/grass/grass_sources.h"
 #include "nodes/grass/near_treads.h"
+#include "nodes/grass/tread_senders.h"
 #include "nodes/grass/whole_meadow.h"
 #include "nodes/listeners/sensor_registry.h"
 #include "nodes/markers/grass_markers.h"
@@ -52,6 +53,10 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   void onWind(const WindField& message);
   void onTread(const TreadEvent& message);
   void onTreads(const TreadEvents& message);
+  /// Whether ticks await what other nodes send.
+  bool awaitsNodes() const { return options_.frame_wait > 0.0 && !options_.replay; }
+  void awaitTreads(Nanoseconds stamp);
+  void awaitInputsToSave() override;
   void onSensor(const SensorInterest& message);
   void showTuning(GrassFieldConfig& config) const override { toConfig(tuning_, config); }
   GrassEvent tuningEvent(const GrassFieldConfig& config) const override;
@@ -151,8 +156,11 @@ class GrassField final : public EventNode<EventQueue<GrassEvent>, GrassFieldConf
   std::uint64_t state_bytes_{0}, largest_state_{0}, near_bytes_{0};
   std::uint64_t reported_no_memory_{0};  // of TreadCounts, when diagnostics were last sent
   std::uint64_t reported_uncut_{0};      // nodes that have no memory, likewise
-  std::uint64_t late_treads_{0};         // of a shard, that came after their tick
-  std::uint64_t reported_late_{0};       // of them, likewise
+  TreadSenders tread_senders_;
+  std::uint64_t unsent_treads_{0};    // senders who were awaited in vain, summed over ticks
+  std::uint64_t reported_unsent_{0};  // likewise
+  std::uint64_t late_treads_{0};      // of a shard, that came after their tick
+  std::uint64_t reported_late_{0};    // of them, likewise
 
   ros::Publisher layout_publisher_, state_publisher_, near_publisher_, wrenches_publisher_,
       forces_publisher_, cover_publisher_, cover_part_publisher_, values_publisher_,

@@ -98,7 +98,22 @@ void GrassField::followWhole(Nanoseconds stamp) {
 }
 
 void GrassField::onTreads(const TreadEvents& message) {
+  if (awaitsNodes() && !tread_senders_.hear(client(), fromMsg(message.header.stamp),
+                                            fromMsg(message.complete_until), clock_.stamp()))
+    return;
   for (const TreadEvent& event : message.events) onTread(event);
+}
+
+void GrassField::awaitTreads(Nanoseconds stamp) {
+  if (!awaitsNodes()) return;
+  if (!awaitInputs(options_.frame_wait, [&] { return tread_senders_.areComplete(stamp); }))
+    unsent_treads_ += tread_senders_.forgetLate(stamp);
+}
+
+// Treads that act later wait in the queue, which is saved.
+void GrassField::awaitInputsToSave() {
+  if (awaitsNodes() && clock_.hasBegun())
+    awaitInputs(options_.frame_wait, [this] { return tread_senders_.haveSent(clock_.stamp()); });
 }
 
 // Sensors affect what is sent to them, so they are no events.

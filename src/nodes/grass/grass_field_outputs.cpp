@@ -172,6 +172,9 @@ void GrassField::addDiagnostics(Status& status) {
   warnOfMore(status, late_treads_, reported_late_,
              "treads came after their tick: shards may apply them at different ones");
   reported_late_ = late_treads_;
+  warnOfMore(status, unsent_treads_, reported_unsent_,
+             "times that a crowd's treads did not come within frame_wait");
+  reported_unsent_ = unsent_treads_;
   if (isPart()) status.add("Treads after their tick", late_treads_);
   status.add("Sources", field_->sources().size());
   status.add("Sources without a position", sources_.missing().size());

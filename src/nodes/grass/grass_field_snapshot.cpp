@@ -88,6 +88,7 @@ CheckedState GrassField::readState(Archive& a) {
             cutters_.restore(cutters);
             setColours(colours);
             key_frames_.demand();
+            tread_senders_.onLoaded(read.stamp);
           }};
 }
 
