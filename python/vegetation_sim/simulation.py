@@ -9,7 +9,9 @@ from rosgraph_msgs.msg import Clock
 from vegetation_sim.client import VegetationError
 
 NANOSECONDS = 1000000000
-RESTART = NANOSECONDS // 5  # a jump back that is longer restarts the nodes for sure [ns]
+# A jump back that is longer restarts the nodes for sure, and exceeds the time of messages that are
+# still on their way [ns].
+RESTART = NANOSECONDS * 2 // 5
 PAUSE = 0.01                # between two looks at connections [s]
 REMINDER = 0.5              # after which the time of a tick is published again [s of wall time]
 

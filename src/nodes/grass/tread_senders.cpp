@@ -15,32 +15,37 @@ bool TreadSenders::hear(const std::string& sender, Nanoseconds sent, Nanoseconds
   }
   if (complete == 0) return true;
   if (found != senders_.end() || senders_.size() < MOST_SENDERS)
-    senders_[sender] = {sent, complete, true};
+    senders_[sender] = {sent, complete};
   return sent > loaded_;
 }
 
 bool TreadSenders::haveSent(Nanoseconds tick) const {
-  return std::all_of(senders_.begin(), senders_.end(),
-                     [&](const auto& entry) { return entry.second.sent >= tick; });
+  return std::all_of(senders_.begin(), senders_.end(), [&](const auto& entry) {
+    return !entry.second.is_awaited || entry.second.sent >= tick;
+  });
 }
 
 bool TreadSenders::areComplete(Nanoseconds stamp) const {
-  return std::all_of(senders_.begin(), senders_.end(),
-                     [&](const auto& entry) { return entry.second.complete_until >= stamp; });
+  return std::all_of(senders_.begin(), senders_.end(), [&](const auto& entry) {
+    return !entry.second.is_awaited || entry.second.complete_until >= stamp;
+  });
 }
 
-std::size_t TreadSenders::forgetLate(Nanoseconds stamp) {
+std::size_t TreadSenders::giveUp(Nanoseconds stamp) {
   std::size_t out = 0;
-  for (auto entry = senders_.begin(); entry != senders_.end();) {
-    const bool is_late = entry->second.complete_until < stamp;
-    entry = is_late ? senders_.erase(entry) : std::next(entry);
-    out += is_late;
+  for (auto& [name, sender] : senders_) {
+    if (!sender.is_awaited || sender.complete_until >= stamp) continue;
+    sender.is_awaited = false;
+    ++out;
   }
   return out;
 }
 
 void TreadSenders::jumpBack() {
-  for (auto& entry : senders_) entry.second = {0, 0, false};
+  for (auto& [name, sender] : senders_) {
+    sender.complete_until = sender.sent = 0;
+    sender.has_jumped_back = false;
+  }
   loaded_ = 0;
 }
 

@@ -27,7 +27,7 @@ class TreadSenders {
   bool haveSent(Nanoseconds tick) const;
   /// Awaits those who have not sent what acts at this stamp no more, until they send again.
   /// @return their number
-  std::size_t forgetLate(Nanoseconds stamp);
+  std::size_t giveUp(Nanoseconds stamp);
   /// Awaits all of them afresh, because the clock has jumped back. Messages of a stamp later than
   /// the tick are void until one of their sender is not.
   void jumpBack();
@@ -37,8 +37,9 @@ class TreadSenders {
 
  private:
   struct Sender {
-    Nanoseconds sent, complete_until;
-    bool has_jumped_back;  // like the clock of this node
+    Nanoseconds sent{0}, complete_until{0};
+    bool is_awaited{true};
+    bool has_jumped_back{true};  // like the clock of this node
   };
   Nanoseconds loaded_{0};  // tick of the state
   std::map<std::string, Sender> senders_;

@@ -26,7 +26,7 @@ TEST(TreadSenders, OneWhoIsLateIsAwaitedAgainOnceItSends) {
   TreadSenders senders;
   senders.hear("crowd", 100, 100, 100);
   senders.hear("hanging", 90, 90, 100);
-  EXPECT_EQ(senders.forgetLate(100), 1U);
+  EXPECT_EQ(senders.giveUp(100), 1U);
   EXPECT_TRUE(senders.areComplete(100));
   EXPECT_FALSE(senders.areComplete(101));
   senders.hear("crowd", 101, 101, 101);
@@ -45,6 +45,18 @@ TEST(TreadSenders, MessagesFromBeforeAJumpBackAreVoid) {
   EXPECT_TRUE(senders.hear("crowd", 10, 10 + AHEAD, 10));
   EXPECT_TRUE(senders.areComplete(10));
   EXPECT_TRUE(senders.hear("crowd", 11, 11 + AHEAD, 10));  // ahead of this node, which lags behind
+}
+
+TEST(TreadSenders, OneWhoIsLateAndJumpsBackIsNotAwaitedUntilItSends) {
+  TreadSenders senders;
+  senders.hear("crowd", 100, 100, 100);
+  senders.giveUp(101);
+  senders.jumpBack();
+  EXPECT_TRUE(senders.areComplete(10));
+  EXPECT_FALSE(senders.hear("crowd", 101, 101, 10));
+  EXPECT_TRUE(senders.areComplete(10));
+  EXPECT_TRUE(senders.hear("crowd", 10, 10, 10));
+  EXPECT_FALSE(senders.areComplete(11));
 }
 
 TEST(TreadSenders, MessagesFromBeforeALoadAreVoid) {
