@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +44,16 @@ Composite onParent(const Branch& b, const Composite& body) {
 }
 
 }  // namespace
+
+double dragPerSpeed(const Branch& b, const Species& s) {
+  const double area = (b.base_radius + b.tip_radius) * b.length + b.leaves * s.leaf_area;
+  return 0.5 * s.fluid_density * s.drag_coefficient * area * s.reference_speed;
+}
+
+double jointStiffness(const Branch& b, const Species& s) {
+  const double r2 = b.base_radius * b.base_radius;
+  return s.youngs_modulus * PI * r2 * r2 / (4.0 * b.length);
+}
 
 double addedMass(const Species& species) {
   return (species.fluid_density - AIR_DENSITY) / species.density;

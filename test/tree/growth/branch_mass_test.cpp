@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ Skeleton oak() {
 constexpr double SIZES[5][2] = {{1.0, 0.1}, {2.0, 0.1}, {0.5, 0.05}, {0.3, 0.004}, {4.0, 0.3}};
 
 // S1-W2, E13: a slender bar on its joint oscillates with w0 = sqrt(3 E / rho) d / (4 l^2).
-TEST(Wood, BeamsSwingAsThickAsTheyAreAndAsShortSquared) {
+TEST(BranchMass, BeamsSwingAsThickAsTheyAreAndAsShortSquared) {
   const Species species = shippedSpecies("oak");
   for (const auto& [length, diameter] : SIZES) {
     const Wood wood = woodOf(bar(length, diameter), species, Material::BEAM);
@@ -43,7 +43,7 @@ TEST(Wood, BeamsSwingAsThickAsTheyAreAndAsShortSquared) {
 }
 
 // S1-28, S1-29: k / m ~ 1 / l^2 for any diameter, nu ~ k.
-TEST(Wood, PaperMaterialSwingsWithoutRegardToThickness) {
+TEST(BranchMass, PaperMaterialSwingsWithoutRegardToThickness) {
   const Species species = shippedSpecies("oak");
   const double scale = species.youngs_modulus * PAPER_RADIUS * PAPER_RADIUS / 4.0 / species.density;
   for (const auto& [length, diameter] : SIZES) {
@@ -55,7 +55,7 @@ TEST(Wood, PaperMaterialSwingsWithoutRegardToThickness) {
 }
 
 // The reference: mass, moment and inertia about a joint, summed over points along the branches.
-TEST(Wood, SubtreesWeighWhatTheirPartsWeigh) {
+TEST(BranchMass, SubtreesWeighWhatTheirPartsWeigh) {
   const Skeleton skeleton = oak();
   const Wood wood = woodOf(skeleton, shippedSpecies("oak"), Material::BEAM);
   const std::size_t root = 3;
@@ -85,7 +85,7 @@ TEST(Wood, SubtreesWeighWhatTheirPartsWeigh) {
 }
 
 // S1-W9: unpromoted wood is carried by promoted wood; nothing is lost.
-TEST(Wood, ClustersLoseNothing) {
+TEST(BranchMass, ClustersLoseNothing) {
   const Skeleton skeleton = oak();
   const Wood wood = woodOf(skeleton, shippedSpecies("oak"), Material::BEAM);
   std::vector<char> promoted(skeleton.branches.size(), 0);
@@ -105,7 +105,7 @@ TEST(Wood, ClustersLoseNothing) {
   for (std::size_t i = 0; i < promoted.size(); ++i) EXPECT_EQ(clusters[i].mass, wood.own[i].mass);
 }
 
-TEST(Wood, LeavesWeigh) {
+TEST(BranchMass, LeavesWeigh) {
   Species species = shippedSpecies("oak");
   const Skeleton skeleton = oak();
   species.leaf_mass = 0.0;
