@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/model/echo.h"
+#include "sensors/model/hit_merging.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ Hit hitAt(double distance, double cosine = 1.0, Label label = Label::TRUNK, int 
   return {distance, label, 1, branch, cosine};
 }
 
-TEST(Echo, OneHitIsItsEcho) {
+TEST(HitMerging, OneHitIsItsEcho) {
   std::vector<Hit> hits{hitAt(7.25, 0.3, Label::LEAF, 4)};
   std::vector<Echo> echoes;
   joinHits(hits, 0.5, echoes);
@@ -21,7 +21,7 @@ TEST(Echo, OneHitIsItsEcho) {
   EXPECT_EQ(echoes[0].hit.branch, 4);
 }
 
-TEST(Echo, HitsWithinTheSeparationAreJoinedAndOthersStayApart) {
+TEST(HitMerging, HitsWithinTheSeparationAreJoinedAndOthersStayApart) {
   std::vector<Hit> hits{hitAt(9.0, 0.5, Label::TRUNK, 3), hitAt(4.0), Hit(),
                         hitAt(4.4, 0.5, Label::TRUNK, 2), hitAt(9.6)};
   std::vector<Echo> echoes;
@@ -37,7 +37,7 @@ TEST(Echo, HitsWithinTheSeparationAreJoinedAndOthersStayApart) {
   EXPECT_EQ(echoes.size(), 1u);
 }
 
-TEST(Echo, RaysThatHitNothingGiveNone) {
+TEST(HitMerging, RaysThatHitNothingGiveNone) {
   std::vector<Hit> hits(7);
   std::vector<Echo> echoes(2);
   joinHits(hits, 0.5, echoes);

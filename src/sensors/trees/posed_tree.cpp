@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/posed_tree.h"
+#include "sensors/trees/posed_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 
 #include "core/threads/thread_pool.h"
 #include "sensors/media/light_path.h"
-#include "sensors/posed_tree.h"
 #include "sensors/traversal/rod_tree_set.h"
+#include "sensors/trees/posed_tree.h"
 
 namespace vegetation_sim::scan {
 

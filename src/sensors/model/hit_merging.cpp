@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/model/echo.h"
+#include "sensors/model/hit_merging.h"
 
 #include <algorithm>
 #include <array>

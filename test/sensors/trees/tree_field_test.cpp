@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/tree_field.h"
+#include "sensors/trees/tree_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/people.h"
+#include "sensors/people/posed_people.h"
 
 namespace vegetation_sim::scan {
 
