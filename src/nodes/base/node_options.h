@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/config/shard.h"
-#include "nodes/snapshots/snapshot_store.h"
+#include "nodes/snapshots/snapshot_folder.h"
 #include "ros/params/parameters.h"
 
 namespace vegetation_sim {

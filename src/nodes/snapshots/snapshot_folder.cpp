@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/snapshots/snapshot_store.h"
+#include "nodes/snapshots/snapshot_folder.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -39,21 +39,21 @@ void readSnapshotOptions(Parameters& parameters, SnapshotOptions& options) {
   parameters.flag("checkpoint", options.checkpoint);
 }
 
-SnapshotStore::SnapshotStore(std::string folder, std::string kind, const std::string& node)
+SnapshotFolder::SnapshotFolder(std::string folder, std::string kind, const std::string& node)
     : folder_(std::move(folder)), kind_(std::move(kind)), node_(node) {}
 
-std::string SnapshotStore::pathOf(const std::string& name, const std::string& node,
-                                  const char* ending) const {
+std::string SnapshotFolder::pathOf(const std::string& name, const std::string& node,
+                                   const char* ending) const {
   checkPlainName("name", name);
   return folder_ + "/" + name + "/" + stemOf(node) + ending;
 }
 
-std::string SnapshotStore::fileOf(const std::string& name, const char* ending) const {
+std::string SnapshotFolder::fileOf(const std::string& name, const char* ending) const {
   return pathOf(name, node_, ending);
 }
 
-std::size_t SnapshotStore::write(const std::string& name, const SnapshotFile& snapshot,
-                                 bool durable) const {
+std::size_t SnapshotFolder::write(const std::string& name, const SnapshotFile& snapshot,
+                                  bool durable) const {
   const std::string file = fileOf(name);
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
@@ -65,12 +65,12 @@ std::size_t SnapshotStore::write(const std::string& name, const SnapshotFile& sn
   return bytes.size();
 }
 
-bool SnapshotStore::has(const std::string& name) const {
+bool SnapshotFolder::has(const std::string& name) const {
   std::error_code error;
   return fs::exists(fileOf(name), error);
 }
 
-SnapshotFile SnapshotStore::read(const std::string& name, const std::string& node) const {
+SnapshotFile SnapshotFolder::read(const std::string& name, const std::string& node) const {
   const std::string file = pathOf(name, node.empty() ? node_ : node, ".snapshot");
   const std::optional<std::string> bytes = contentOf(file, LARGEST_SNAPSHOT);
   if (!bytes) throw InvalidInput(file + ": there is no such file", FaultCode::UNKNOWN);

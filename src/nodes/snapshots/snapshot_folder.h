@@ -21,10 +21,10 @@ void readSnapshotOptions(Parameters& parameters, SnapshotOptions& options);
 
 /// The snapshot files of one node: FOLDER/NAME/NODE.snapshot. Nodes may share the folder, so that a
 /// scene is a name. All functions throw InvalidInput that names the file.
-class SnapshotStore {
+class SnapshotFolder {
  public:
   /// @param kind of node, such as forest_animator. @param node resolved name.
-  SnapshotStore(std::string folder, std::string kind, const std::string& node);
+  SnapshotFolder(std::string folder, std::string kind, const std::string& node);
 
   const std::string& node() const { return node_; }
   /// Path of a file of this node or of another one. Names of nodes may have slashes.
