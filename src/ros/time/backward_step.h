@@ -11,7 +11,7 @@ namespace vegetation_sim {
 /// The one rule of nodes and displays for a clock that goes back. A step of time synchronisation,
 /// or a second clock that is a little behind, is ridden out: what runs waits until the clock passes
 /// the newest time again. A larger step is a jump back, after which nodes and displays start anew.
-class ClockJumps {
+class BackwardStep {
  public:
   static constexpr Nanoseconds LARGEST_STEP = NANOSECONDS_PER_SECOND / 10;  ///< ridden out
 
