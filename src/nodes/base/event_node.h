@@ -23,7 +23,7 @@
 #include "nodes/shards/shard_check.h"
 #include "ros/conversions/recorded_message.h"
 #include "ros/services/frame_listener.h"
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 
 #include <tf2/exceptions.h>
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ros/services/stamp_limits.h"
-#include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
@@ -55,6 +54,12 @@ void checkFrame(const std::string& frame, const std::string& world) {
   if (frame != world)
     throw InvalidInput("frame_id = " + inQuotes(frame) +
                        ", allowed is the world frame of this node, " + inQuotes(world));
+}
+
+void checkFinite(const char* name, Vec3 value, Range range) {
+  Faults faults;
+  FieldChecker("", faults).vector(name, value, "m", range);
+  faults.throwIfAny();
 }
 
 ros::Time effectOf(const ros::Time& stamp, const TickClock& clock) {

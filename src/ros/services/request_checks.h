@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ros/time/tick_clock.h"
+#include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/vectors.h"
 
 namespace vegetation_sim {
@@ -25,6 +26,10 @@ Pose poseInWorld(const tf2_ros::Buffer& buffer, const std::string& world, const 
 
 /// @throws InvalidInput that names both if a message is not in the world frame.
 void checkFrame(const std::string& frame, const std::string& world);
+
+/// @throws InvalidInput that names the field and the range if a coordinate of a request [m] is
+/// outside the range or not finite.
+void checkFinite(const char* name, Vec3 value, Range range);
 
 /// Returns when an input takes effect: its stamp if that is in the future, else zero for the next
 /// tick. @throws InvalidInput for a stamp more than FARTHEST_AHEAD ahead. Before the clock has

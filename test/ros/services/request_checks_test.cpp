@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 
 #include <gtest/gtest.h>
 
