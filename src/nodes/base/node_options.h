@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "nodes/snapshots/snapshot_folder.h"
 #include "ros/params/parameters.h"
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 
 namespace vegetation_sim {
 namespace {

@@ -12,7 +12,7 @@
 #include <mutex>
 #include <string>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 
 namespace vegetation_sim {
 

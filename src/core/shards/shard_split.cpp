@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 
 #include <algorithm>
 #include <string>
