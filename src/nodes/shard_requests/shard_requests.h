@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/shards/shard_call.h"
-#include "nodes/shards/shard_registry.h"
+#include "nodes/shard_requests/shard_call.h"
+#include "nodes/shard_requests/shard_registry.h"
 #include "ros/services/service_replies.h"
 
 namespace vegetation_sim {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/shards/shard_registry.h"
+#include "nodes/shard_requests/shard_registry.h"
 
 #include <ros/names.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/shards/shard_requests.h"
+#include "nodes/shard_requests/shard_requests.h"
 
 namespace vegetation_sim {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "nodes/shards/shard_registry.h"
+#include "nodes/shard_requests/shard_registry.h"
 
 namespace vegetation_sim {
 

@@ -1,12 +1,12 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/shards/shard_registry.h"
+#include "nodes/shard_requests/shard_registry.h"
 
 #include <gtest/gtest.h>
 #include <vegetation_sim/Pick.h>
 
 #include "core/error_text.h"
-#include "nodes/shards/shard_merges.h"
+#include "nodes/shard_requests/shard_merges.h"
 
 namespace vegetation_sim {
 namespace {
