@@ -12,7 +12,7 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_OUT_INL_H_
 #endif
 
-#include "dynamics/simd/chain_lanes-inl.h"
+#include "dynamics/batch_step/chain_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 
 #include <gtest/gtest.h>
 

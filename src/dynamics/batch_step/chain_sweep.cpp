@@ -1,17 +1,17 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simd/chain_sweep.h"
+#include "dynamics/batch_step/chain_sweep.h"
 
 #include <algorithm>
 
 // Vectors without arithmetic operators are left out; their processors use the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "dynamics/simd/chain_sweep.cpp"
+#define HWY_TARGET_INCLUDE "dynamics/batch_step/chain_sweep.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "dynamics/simd/chain_pass-inl.h"
+#include "dynamics/batch_step/chain_pass-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

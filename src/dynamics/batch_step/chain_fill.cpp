@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simd/chain_fill.h"
+#include "dynamics/batch_step/chain_fill.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/simd/chain_sweep.h"
+#include "dynamics/batch_step/chain_sweep.h"
 #include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::physics {

@@ -10,7 +10,7 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_BODY_INL_H_
 #endif
 
-#include "dynamics/simd/chain_out-inl.h"
+#include "dynamics/batch_step/chain_out-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

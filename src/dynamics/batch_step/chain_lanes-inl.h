@@ -11,7 +11,7 @@
 
 #include <hwy/highway.h>
 
-#include "dynamics/simd/chain_rows.h"
+#include "dynamics/batch_step/chain_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

@@ -11,8 +11,8 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
 #endif
 
+#include "dynamics/batch_step/chain_body-inl.h"
 #include "dynamics/integration/integrator.h"
-#include "dynamics/simd/chain_body-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simd/batch_chain.h"
-#include "dynamics/simd/chain_rows.h"
+#include "dynamics/batch_step/batch_chain.h"
+#include "dynamics/batch_step/chain_rows.h"
 
 namespace vegetation_sim::physics {
 

@@ -3,8 +3,8 @@
 // Loads on the links of a BatchChain: bases, loads, air.
 #include <algorithm>
 
-#include "dynamics/simd/batch_chain.h"
-#include "dynamics/simd/chain_sweep.h"
+#include "dynamics/batch_step/batch_chain.h"
+#include "dynamics/batch_step/chain_sweep.h"
 #include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::physics {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "scenes/dynamics/chain_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"
 #include "vegetation_sim/wind/field.h"

@@ -10,8 +10,8 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_PASS_INL_H_
 #endif
 
-#include "dynamics/simd/chain_levels.h"
-#include "dynamics/simd/chain_mean-inl.h"
+#include "dynamics/batch_step/chain_levels.h"
+#include "dynamics/batch_step/chain_mean-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

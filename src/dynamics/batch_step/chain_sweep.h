@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "dynamics/simd/chain_fill.h"
-#include "dynamics/simd/chain_levels.h"
-#include "dynamics/simd/chain_rows.h"
+#include "dynamics/batch_step/chain_fill.h"
+#include "dynamics/batch_step/chain_levels.h"
+#include "dynamics/batch_step/chain_rows.h"
 
 namespace vegetation_sim::physics {
 

@@ -1,10 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/simd/chain_levels.h"
+#include "dynamics/batch_step/chain_levels.h"
 
 #include <algorithm>
 
-#include "dynamics/simd/chain_rows.h"
+#include "dynamics/batch_step/chain_rows.h"
 
 namespace vegetation_sim::physics {
 namespace {
