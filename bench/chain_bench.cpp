@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "processor_time.h"
 #include "scenes/dynamics/chain_scene.h"
 #include "vegetation_sim/core/config/instruction_set.h"

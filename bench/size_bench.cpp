@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "crowd/agents/crowd.h"
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "options.h"
 #include "processor_time.h"
 #include "scenes/dynamics/chain_scene.h"

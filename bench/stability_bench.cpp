@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "options.h"
 #include "scenes/dynamics/chain_scene.h"
 #include "table.h"

@@ -27,8 +27,8 @@ if(${PROJECT_NAME}_FUZZ)
     src/nodes/grass/cover/cover_join.cpp src/nodes/grass/cover/grass_cover.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
     src/nodes/grass/grass_sources.cpp src/nodes/grass/near_treads.cpp
-    src/nodes/shards/shard_registry.cpp src/nodes/snapshots/event_journal.cpp
-    src/nodes/snapshots/snapshot_store.cpp)
+    src/nodes/shard_requests/shard_registry.cpp src/nodes/snapshots/event_journal.cpp
+    src/nodes/snapshots/snapshot_folder.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)
   # One instruction set suffices: all give the same bits. clang takes a quarter of an hour for the
   # largest of these sources with checks of undefined behaviour; test.sh --sanitize checks them.

@@ -1,8 +1,8 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/batch_step/batch_chain.h"
 #include "dynamics/chain/inertia_bound.h"
 #include "dynamics/integration/integrator.h"
-#include "dynamics/simd/batch_chain.h"
 #include "trees/engine.h"
 
 namespace vegetation_sim::bench {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "scenes/dynamics/chain_scene.h"
 
 namespace vegetation_sim::physics {

@@ -13,7 +13,7 @@
 #include "forest/contact/contact_finder.h"
 #include "forest/contact/substep_bisection.h"
 #include "scenes/forest/forest_fixture.h"
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {

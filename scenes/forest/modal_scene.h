@@ -8,7 +8,7 @@
 
 #include "dynamics/integration/integrator.h"
 #include "scenes/forest/forest_fixture.h"
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 #include "vegetation_sim/tree/modal/modal_tree_state.h"
 
 // One tree in a wind on every tier; shared by tests and bench.

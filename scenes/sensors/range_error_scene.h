@@ -14,7 +14,7 @@
 #include "scenes/sensors/lidar_scene.h"
 #include "scenes/shipped_scene.h"
 #include "sensors/sweep.h"
-#include "sensors/tree_field.h"
+#include "sensors/trees/tree_field.h"
 
 namespace vegetation_sim::scan {
 

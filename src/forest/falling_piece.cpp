@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tree/growth/branch_mass.h"
 #include "tree/growth/broken_branch.h"
-#include "tree/growth/wood.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "sensors/grass/grass_volume.h"
-#include "sensors/people.h"
+#include "sensors/people/posed_people.h"
 #include "sensors/plants/crown_field.h"
 #include "sensors/plants/plant_field.h"
-#include "sensors/tree_field.h"
+#include "sensors/trees/tree_field.h"
 
 namespace vegetation_sim::scan {
 

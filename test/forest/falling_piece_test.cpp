@@ -9,8 +9,8 @@
 
 #include "core/error_text.h"
 #include "scenes/forest/physics_scene.h"
+#include "tree/growth/branch_mass.h"
 #include "tree/growth/broken_branch.h"
-#include "tree/growth/wood.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::forest {

@@ -41,9 +41,6 @@ struct CrowdSnapshot {
   std::uint64_t walkersHash() const;
 };
 
-/// Resistance of the ground at a place over a reference: 0 for free ground; above 1 it counts as 1.
-using Resistance = std::function<double(const Point&)>;
-
 class CrowdOwners;
 
 /// Limits of a crowd.
@@ -130,7 +127,6 @@ class Crowd {
   void loosen(double wanted, const Tick& tick, Walker& walker) const;
   void reach(const Tick& tick, Walker& walker) const;
   void chooseGoal(Walker& walker) const;
-  double paceAt(const Walker& walker, const Point& direction) const;
   template <class Each>
   void forAll(std::size_t count, Each each) const;
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "crowd/agents/crowd.h"
 
 namespace vegetation_sim::crowd {

@@ -128,17 +128,6 @@ void Crowd::findAims() {
   for (std::size_t i = 0; i < queries_.size(); ++i) aims_[asking[i]] = queries_[i].aim;
 }
 
-double Crowd::paceAt(const Walker& walker, const Point& direction) const {
-  double out = memory_.settings.pace;
-  if (!terrain_->isFlat()) {
-    const Vec3 up = terrain_->normal(walker.position.x, walker.position.y);
-    out *= slopeFactor(-(up.x() * direction.x + up.y() * direction.y) / up.z());
-  }
-  if (resistance_)
-    out *= 1.0 - memory_.settings.grass_drag * saturate(resistance_(walker.position));
-  return out;
-}
-
 void Crowd::chooseGoal(Walker& w) const {
   const Area& area = memory_.area;
   const Random random = Random(w.key).child(1 + std::uint64_t{w.goals});
@@ -158,6 +147,9 @@ void Crowd::chooseGoal(Walker& w) const {
 // Returns the wanted motion before perception. Standing walkers keep their front.
 Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
   Wish out{front, 0.0};
+  const auto pace = [&] {
+    return paceAt(w.position, out.direction, *terrain_, resistance_, memory_.settings);
+  };
   const auto behaviour = static_cast<Behaviour>(memory_.settings.behaviour);
   if (!w.has_goal && w.wanders) {
     if (behaviour == Behaviour::GOAL)
@@ -166,7 +158,7 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
       out.speed = w.speed;  // walkers of PAPER walk on
   }
   if (!w.has_goal || w.arrived) {
-    out.speed *= paceAt(w, out.direction);
+    out.speed *= pace();
     return out;
   }
   // A walker that has just chosen a goal makes no detour: aims_ still has the aim of the last goal.
@@ -179,7 +171,7 @@ Wish Crowd::wishOf(Walker& w, const Point& front, std::size_t index) const {
     out.direction = {aside.cos * out.direction.x - aside.sin * out.direction.y,
                      aside.sin * out.direction.x + aside.cos * out.direction.y};
   }
-  out.speed = std::min(w.speed * paceAt(w, out.direction), 2.0 * left);
+  out.speed = std::min(w.speed * pace(), 2.0 * left);
   return out;
 }
 

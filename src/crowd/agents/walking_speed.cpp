@@ -68,6 +68,17 @@ double slopeFactor(double slope) {
   return exponential(STEEPNESS * (std::fabs(BEST) - std::fabs(slope - BEST)));
 }
 
+double paceAt(const Point& place, const Point& direction, const terrain::HeightMap& terrain,
+              const Resistance& resistance, const CrowdSettings& s) {
+  double out = s.pace;
+  if (!terrain.isFlat()) {
+    const Vec3 up = terrain.normal(place.x, place.y);
+    out *= slopeFactor(-(up.x() * direction.x + up.y() * direction.y) / up.z());
+  }
+  if (resistance) out *= 1.0 - s.grass_drag * saturate(resistance(place));
+  return out;
+}
+
 int limitsOf(std::uint32_t self, const View& view, const CrowdSettings& s, double dt,
              std::array<Limit, View::MOST>& limits) {
   for (int i = 0; i < view.count; ++i) {

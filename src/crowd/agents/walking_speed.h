@@ -2,13 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 #include "crowd/agents/decision.h"
+#include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::crowd {
 
 /// Returns the factor of the slope on the speed: 1 on flat ground, less uphill and steeply downhill
 /// (Tobler 1993; S2-34, S2-37). @param slope rise per run along the way.
 double slopeFactor(double slope);
+
+/// Resistance of the ground at a place over a reference: 0 for free ground; above 1 it counts as 1.
+using Resistance = std::function<double(const Point&)>;
+/// Returns the factor on a walker's speed at a place: the pace of all, less on a slope and in grass
+/// (S2-37). @param resistance may be empty: free ground.
+double paceAt(const Point& place, const Point& direction, const terrain::HeightMap& terrain,
+              const Resistance& resistance, const CrowdSettings& settings);
 
 /// A limit on the step: its part along `normal` should be at most `wanted` and must be at most
 /// `hard` [m]. A negative `wanted` demands a retreat.

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 #include "vegetation_sim/dynamics/chain/linear_chain.h"
 
 namespace vegetation_sim::physics {

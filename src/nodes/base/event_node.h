@@ -20,10 +20,10 @@
 #include "nodes/base/saved_node.h"
 #include "nodes/listeners/viewer_registry.h"
 #include "nodes/markers/marker_publisher.h"
-#include "nodes/shards/shard_check.h"
+#include "nodes/shard_requests/shard_check.h"
 #include "ros/conversions/recorded_message.h"
 #include "ros/services/frame_listener.h"
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {

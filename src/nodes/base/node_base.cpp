@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "nodes/base/freed_memory.h"
-#include "nodes/shards/shard_check.h"
+#include "nodes/shard_requests/shard_check.h"
 #include "ros/services/rivals.h"
 
 namespace vegetation_sim {

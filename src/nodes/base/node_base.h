@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "nodes/base/closable_queue.h"
-#include "nodes/shards/shard_merges.h"
-#include "nodes/shards/shard_requests.h"
+#include "nodes/shard_requests/shard_merges.h"
+#include "nodes/shard_requests/shard_requests.h"
 #include "ros/services/diagnostics.h"
 #include "ros/services/subscriptions.h"
 #include "vegetation_sim/core/config/faults.h"

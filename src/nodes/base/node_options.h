@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "core/config/shard.h"
-#include "nodes/snapshots/snapshot_store.h"
+#include "core/shards/shard_split.h"
+#include "nodes/snapshots/snapshot_folder.h"
 #include "ros/params/parameters.h"
 
 namespace vegetation_sim {

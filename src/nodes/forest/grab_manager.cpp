@@ -8,7 +8,7 @@
 
 #include "ros/conversions/grab_conversions.h"
 #include "ros/conversions/optional_numbers.h"
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -26,12 +26,6 @@ void readSpring(const Grab::Request& request, forest::Grab& grab) {
   numbers.read("damping", request.has_damping, request.damping, grab.damping);
   numbers.read("force_limit", request.has_force_limit, request.force_limit, grab.force_limit);
   numbers.read("lease", request.has_lease, request.lease, grab.lease);
-  faults.throwIfAny();
-}
-
-void checkFinite(const char* name, Vec3 value, Range range) {
-  Faults faults;
-  FieldChecker("", faults).vector(name, value, "m", range);
   faults.throwIfAny();
 }
 

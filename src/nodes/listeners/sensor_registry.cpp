@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/listeners/sensor_registry.h"
 
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 

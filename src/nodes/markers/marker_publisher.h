@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "nodes/markers/triangle_lists.h"
 #include "vegetation_sim/core/lod/viewpoint.h"
 #include "vegetation_sim/core/math/time.h"

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "ros/services/service_replies.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"

@@ -1,7 +1,7 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/sensors/vegetation_scanner.h"
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "ros/services/service_replies.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"
 #include "vegetation_sim/ros/conversions/stamps.h"

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <optional>
 
-#include "nodes/snapshots/snapshot_store.h"
+#include "nodes/snapshots/snapshot_folder.h"
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim {

@@ -28,16 +28,16 @@ NodeSnapshots::NodeSnapshots(const SnapshotOptions& options, const std::string& 
                              const std::string& node, SnapshotCalls calls)
     : begins_with_checkpoint_(options.checkpoint),
       period_(options.checkpoint_period),
-      store_(options.folder, kind, node),
+      folder_(options.folder, kind, node),
       calls_(std::move(calls)),
-      journal_(hasCheckpoints() || options.checkpoint ? store_.fileOf(CHECKPOINT, ".journal")
+      journal_(hasCheckpoints() || options.checkpoint ? folder_.fileOf(CHECKPOINT, ".journal")
                                                       : "") {}
 
 std::string NodeSnapshots::save(const std::string& name, SaveSnapshot::Response& response) const {
   const ros::WallTime begin = ros::WallTime::now();
   const SnapshotFile snapshot = calls_.save();
-  response.file = store_.fileOf(name);
-  response.bytes = store_.write(name, snapshot, true);
+  response.file = folder_.fileOf(name);
+  response.bytes = folder_.write(name, snapshot, true);
   response.stamp = toStamp(snapshot.header.stamp);
   response.hash = snapshot.header.state_hash;
   response.seconds = (ros::WallTime::now() - begin).toSec();
@@ -46,7 +46,7 @@ std::string NodeSnapshots::save(const std::string& name, SaveSnapshot::Response&
 
 NodeSnapshots::Loadable NodeSnapshots::read(const std::string& name, const std::string& node,
                                             Nanoseconds now) const {
-  const SnapshotFile file = store_.read(name, node);
+  const SnapshotFile file = folder_.read(name, node);
   const SnapshotHeader& header = file.header;
   try {
     if (header.layout_hash != calls_.scene_hash())
@@ -92,7 +92,7 @@ void NodeSnapshots::checkpoint() {
   if (!hasCheckpoints()) return;
   const SnapshotFile snapshot = calls_.save();
   last_ = snapshot.header.stamp;  // also if it fails, so that it is tried again after the period
-  store_.write(CHECKPOINT, snapshot, false);
+  folder_.write(CHECKPOINT, snapshot, false);
   journal_.restart(keyOf(snapshot));
 }
 
@@ -105,12 +105,12 @@ void NodeSnapshots::addInput(StoredEvent input) {
 void NodeSnapshots::dropCheckpoint() {
   last_.reset();
   if (!hasCheckpoints()) return;
-  std::remove(store_.fileOf(CHECKPOINT).c_str());
-  std::remove(store_.fileOf(CHECKPOINT, ".journal").c_str());
+  std::remove(folder_.fileOf(CHECKPOINT).c_str());
+  std::remove(folder_.fileOf(CHECKPOINT, ".journal").c_str());
 }
 
 std::optional<NodeSnapshots::Loadable> NodeSnapshots::readCheckpoint() const {
-  if (!begins_with_checkpoint_ || !store_.has(CHECKPOINT)) return std::nullopt;
+  if (!begins_with_checkpoint_ || !folder_.has(CHECKPOINT)) return std::nullopt;
   return read(CHECKPOINT, "", 0);
 }
 

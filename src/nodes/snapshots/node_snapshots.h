@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nodes/snapshots/event_journal.h"
-#include "nodes/snapshots/snapshot_store.h"
+#include "nodes/snapshots/snapshot_folder.h"
 
 namespace vegetation_sim {
 
@@ -41,7 +41,7 @@ class NodeSnapshots {
   NodeSnapshots(const SnapshotOptions& options, const std::string& kind, const std::string& node,
                 SnapshotCalls calls);
 
-  const std::string& node() const { return store_.node(); }
+  const std::string& node() const { return folder_.node(); }
   /// Body of the service ~save_snapshot. @throws InvalidInput
   std::string save(const std::string& name, SaveSnapshot::Response& response) const;
 
@@ -84,7 +84,7 @@ class NodeSnapshots {
  private:
   bool begins_with_checkpoint_;
   double period_;  // [s]
-  SnapshotStore store_;
+  SnapshotFolder folder_;
   SnapshotCalls calls_;
   EventJournal journal_;
   std::optional<Nanoseconds> last_;  // stamp of the newest checkpoint

@@ -68,7 +68,7 @@ bool WindBroadcaster::resume(Nanoseconds now) {
   bool resumed = false;
   acceptInput("checkpoint", [&] {
     const auto found = snapshots_.readCheckpoint();
-    if (!found || found->header.stamp > now + ClockJumps::LARGEST_STEP) return;
+    if (!found || found->header.stamp > now + BackwardStep::LARGEST_STEP) return;
     found->state.restore();
     resumed = true;
     reportCheckpoint(found->header.stamp);

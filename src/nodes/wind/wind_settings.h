@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/snapshots/snapshot_store.h"
+#include "nodes/snapshots/snapshot_folder.h"
 #include "ros/params/parameters.h"
 #include "vegetation_sim/wind/source.h"
 #include "wind/schedule/primitive_schedule.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 
 namespace vegetation_sim {
 

@@ -14,7 +14,7 @@
 
 #include "ros/replicas/delay_buffer.h"
 #include "ros/replicas/input_status.h"
-#include "ros/services/requests.h"
+#include "ros/services/request_checks.h"
 #include "ros/services/rivals.h"
 #include "ros/services/stamp_limits.h"
 #include "ros/services/subscriptions.h"

@@ -7,13 +7,13 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
-#include "ros/time/clock_jumps.h"
+#include "ros/time/backward_step.h"
 
 namespace vegetation_sim {
 
 /// Fills a buffer with the frames of /tf and /tf_static, in a thread of its own. A step back of the
-/// clock keeps them, as nodes ride it out (ClockJumps); tf2_ros::TransformListener would clear the
-/// buffer.
+/// clock keeps them, as nodes ride it out (BackwardStep); tf2_ros::TransformListener would clear
+/// the buffer.
 class FrameListener {
  public:
   /// @param buffer must outlive the listener.
@@ -28,7 +28,7 @@ class FrameListener {
   tf2_ros::Buffer& buffer_;
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_;
-  ClockJumps clock_times_;
+  BackwardStep clock_times_;
   ros::Subscriber moving_, fixed_;
   ros::AsyncSpinner spinner_;
 };

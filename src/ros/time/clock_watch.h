@@ -7,14 +7,14 @@
 
 #include <functional>
 
-#include "ros/time/clock_jumps.h"
+#include "ros/time/backward_step.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
-/// ROS time for a node. It waits while time is zero and reports every jump back (ClockJumps). With
-/// simulated time it follows the messages of /clock in the node's own callback queue, so that a
-/// callback never computes for a time that has not yet begun for the node.
+/// ROS time for a node. It waits while time is zero and reports every jump back (BackwardStep).
+/// With simulated time it follows the messages of /clock in the node's own callback queue, so that
+/// a callback never computes for a time that has not yet begun for the node.
 class ClockWatch {
  public:
   /// @param begin called with the first time and with any after a jump back; with wall time, by the
@@ -32,7 +32,7 @@ class ClockWatch {
   void see(Nanoseconds now);
 
   std::function<void(Nanoseconds)> begin_;
-  ClockJumps clock_times_;
+  BackwardStep clock_times_;
   int jumps_{0};
   ros::Subscriber clock_;
   ros::WallTimer poll_;

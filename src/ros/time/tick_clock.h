@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-#include "ros/time/clock_jumps.h"
+#include "ros/time/backward_step.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
@@ -36,7 +36,7 @@ enum class LateTicks { EACH, NEWEST };
 
 /// Runs a node's ticks on an integer grid of ROS time. Late ticks are caught up one by one for up
 /// to LONGEST_CATCH_UP; after a larger leap the ticks between are dropped and counted. A jump back
-/// (ClockJumps) is a restart; no tick runs during a smaller step back. With simulated time it
+/// (BackwardStep) is a restart; no tick runs during a smaller step back. With simulated time it
 /// follows every message of /clock in the queue of the node's other inputs. With LateTicks::NEWEST
 /// all late ticks but the newest are dropped and counted, and only the newest message of /clock is
 /// used.
@@ -89,7 +89,7 @@ class TickClock {
   Nanoseconds delay_;
   TickCalls calls_;
   LateTicks late_;
-  ClockJumps clock_times_;
+  BackwardStep clock_times_;
   std::int64_t last_{NEVER};
   Counts counts_;
   double cost_{0.0};

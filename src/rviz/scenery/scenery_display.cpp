@@ -55,7 +55,7 @@ void SceneryDisplay::start() {
     return;
   }
   open_ = true;
-  clock_times_ = ClockJumps();
+  clock_times_ = BackwardStep();
   updateSun();
   updateViewer();
 }
@@ -194,7 +194,7 @@ void SceneryDisplay::drawRobotShadows(const std::string& frame) {
 
 void SceneryDisplay::watchTime(Nanoseconds stamp) {
   // The state may be ahead of the picture's clock by less than the jump, hence half of it.
-  if (clock_times_.jumpsBackTo(stamp)) forgetState(stamp + ClockJumps::LARGEST_STEP / 2);
+  if (clock_times_.jumpsBackTo(stamp)) forgetState(stamp + BackwardStep::LARGEST_STEP / 2);
 }
 
 void SceneryDisplay::publishViewer() {

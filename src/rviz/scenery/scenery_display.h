@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/time/clock_jumps.h"
+#include "ros/time/backward_step.h"
 #include "rviz/render/fog.h"
 #include "rviz/scenery/budget_status_source.h"
 #include "rviz/scenery/robot_shadows.h"
@@ -103,7 +103,7 @@ class SceneryDisplay : public rviz::Display {
   std::unique_ptr<view::ViewerPublisher> viewer_;
   std::unique_ptr<view::GovernorSource> governor_;
   view::StatusBoard board_;
-  ClockJumps clock_times_;
+  BackwardStep clock_times_;
   std::string problem_;                                       // that ended the last update early
   double frame_time_{0.0};                                    // [s]
   double since_update_{0.0}, since_status_{1e9}, wall_{1.0};  // [s]

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "sensors/model/echo.h"
+#include "sensors/model/hit_merging.h"
 #include "sensors/model/ray_random.h"
 #include "sensors/model/sensor_model.h"
 

@@ -34,16 +34,6 @@ std::vector<Vec3> subtreeLevers(const Skeleton& skeleton, const Species& species
 
 }  // namespace
 
-double dragPerSpeed(const Branch& b, const Species& s) {
-  const double area = (b.base_radius + b.tip_radius) * b.length + b.leaves * s.leaf_area;
-  return 0.5 * s.fluid_density * s.drag_coefficient * area * s.reference_speed;
-}
-
-double jointStiffness(const Branch& b, const Species& s) {
-  const double r2 = b.base_radius * b.base_radius;
-  return s.youngs_modulus * PI * r2 * r2 / (4.0 * b.length);
-}
-
 std::vector<Response> windResponse(const Skeleton& skeleton, const Species& species,
                                    const MotionLaw& law) {
   const bool paper_gain = law.gain == Gain::PAPER;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 
 namespace vegetation_sim::forest {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "dynamics/modes/harmonic_chain.h"
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 #include "tree/lod/bending.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/growth/response.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 #include "tree/modal/modal_load.h"
 #include "tree/modal/modal_wind_load.h"
 #include "vegetation_sim/core/config/faults.h"

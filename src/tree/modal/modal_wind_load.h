@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 #include "vegetation_sim/tree/modal/modal_tree.h"
 
 namespace vegetation_sim::forest {

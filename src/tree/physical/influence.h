@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tree/growth/wood.h"
+#include "tree/growth/branch_mass.h"
 
 namespace vegetation_sim::forest {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
+#include "dynamics/batch_step/chain_sweep.h"
 #include "dynamics/contact/contact.h"
 #include "dynamics/integration/integrator.h"
-#include "dynamics/simd/chain_sweep.h"
 #include "tree/physical/procedural_motion.h"
 
 namespace vegetation_sim::forest {

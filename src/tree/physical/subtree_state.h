@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "dynamics/simd/batch_chain.h"
+#include "dynamics/batch_step/batch_chain.h"
 
 namespace vegetation_sim::forest {
 

@@ -11,7 +11,7 @@
 #include "fuzz/targets/usage.h"
 #include "nodes/crowd/shards/part_join.h"
 #include "nodes/crowd/shards/waiting_borders.h"
-#include "nodes/shards/shard_registry.h"
+#include "nodes/shard_requests/shard_registry.h"
 #include "ros/conversions/crowd_conversions.h"
 #include "scenes/crowd/crowd_scenes.h"
 #include "vegetation_sim/ros/conversions/stamps.h"

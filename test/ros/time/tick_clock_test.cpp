@@ -80,7 +80,7 @@ TEST_F(TickClockTest, ALatestOnlyClockDropsAndCountsEarlierTicks) {
 TEST_F(TickClockTest, AJumpBackIsAFreshStart) {
   TickClock clock = make();
   clock.see(5 * SECOND);
-  clock.see(5 * SECOND - ClockJumps::LARGEST_STEP - 1);
+  clock.see(5 * SECOND - BackwardStep::LARGEST_STEP - 1);
   EXPECT_EQ(did_, (Did{"before", "50", "back to 4", "before", "48"}));
   EXPECT_EQ(clock.counts().jumps, 1u);
   EXPECT_EQ(clock.counts().dropped, 0u);
@@ -92,7 +92,7 @@ TEST_F(TickClockTest, AJumpBackIsAFreshStart) {
 TEST_F(TickClockTest, NoTickRunsUntilASmallStepBackIsMadeUp) {
   TickClock clock = make();
   clock.see(5 * SECOND);
-  clock.see(5 * SECOND - ClockJumps::LARGEST_STEP);
+  clock.see(5 * SECOND - BackwardStep::LARGEST_STEP);
   clock.see(5 * SECOND - 1);
   EXPECT_EQ(did_, (Did{"before", "50"}));
   clock.see(5 * SECOND + SECOND / 10);

@@ -26,10 +26,11 @@ struct JointAngles {
 
 /// Returns the drag per air speed of a branch with its own leaves, for the linear law F = c v
 /// [kg/s]. c = rho Cd A v_ref / 2 with the density rho of the fluid, so that both laws have the
-/// same force at the reference speed.
+/// same force at the reference speed. Computed beside the masses, in branch_mass.cpp.
 double dragPerSpeed(const Branch& branch, const Species& species);
 
-/// Returns the bending stiffness of the joint of a branch: E pi r^4 / (4 l) [N m/rad].
+/// Returns the bending stiffness of the joint of a branch: E pi r^4 / (4 l) [N m/rad]. Computed in
+/// branch_mass.cpp too.
 double jointStiffness(const Branch& branch, const Species& species);
 
 /// Returns the responses of all branches. Gain `compliance`: the static deflection under the drag

@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {

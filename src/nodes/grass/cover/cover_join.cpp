@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/config/shard.h"
+#include "core/shards/shard_split.h"
 #include "nodes/grass/cover/grass_cover.h"
 #include "vegetation_sim/core/config/faults.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
