@@ -26,7 +26,7 @@ if(${PROJECT_NAME}_FUZZ)
     src/nodes/forest/tree_requests.cpp src/nodes/bodies/robot_bodies_parts.cpp
     src/nodes/grass/cover/cover_join.cpp src/nodes/grass/cover/grass_cover.cpp
     src/nodes/grass/grass_events.cpp src/nodes/grass/grass_options.cpp
-    src/nodes/grass/grass_sources.cpp src/nodes/grass/near_treads.cpp
+    src/nodes/grass/grass_sources.cpp src/nodes/grass/treads/near_treads.cpp
     src/nodes/shard_requests/shard_registry.cpp src/nodes/snapshots/event_journal.cpp
     src/nodes/snapshots/snapshot_folder.cpp)
   target_link_libraries(fuzz_targets PUBLIC ${PROJECT_NAME}_ros PNG::PNG)

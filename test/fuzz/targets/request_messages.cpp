@@ -15,7 +15,7 @@
 #include "nodes/forest/tree_requests.h"
 #include "nodes/grass/grass_events.h"
 #include "nodes/grass/grass_sources.h"
-#include "nodes/grass/near_treads.h"
+#include "nodes/grass/treads/near_treads.h"
 #include "scenes/forest/forest_fixture.h"
 #include "vegetation_sim/ros/conversions/forest_conversions.h"
 #include "vegetation_sim/ros/conversions/geometry_conversions.h"

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/grass/near_treads.h"
+#include "nodes/grass/treads/near_treads.h"
 
 #include <gtest/gtest.h>
 

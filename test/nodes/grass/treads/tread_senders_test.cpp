@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/grass/tread_senders.h"
+#include "nodes/grass/treads/tread_senders.h"
 
 #include <gtest/gtest.h>
 
