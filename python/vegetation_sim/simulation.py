@@ -9,8 +9,8 @@ from rosgraph_msgs.msg import Clock
 from vegetation_sim.client import VegetationError
 
 NANOSECONDS = 1000000000
-# A jump back that is longer restarts the nodes for sure, and exceeds the time of messages that are
-# still on their way [ns].
+# A jump back that is longer restarts the nodes for sure, and cover maps that are still on their way
+# are later than the first ticks after it [ns].
 RESTART = NANOSECONDS * 2 // 5
 PAUSE = 0.01                # between two looks at connections [s]
 REMINDER = 0.5              # after which the time of a tick is published again [s of wall time]
@@ -42,6 +42,8 @@ class Simulation:
     def reset(self):
         """Restarts the nodes: each becomes what a fresh start at the start time would be. Returns
         what observe() does."""
+        if self.tick is None:  # nodes that have just started begin together at a jump back only
+            self._run(self.start + self._ticks_of_jump())
         return self._restart(self.start)
 
     def seek(self, stamp):
@@ -73,8 +75,11 @@ class Simulation:
 
     def _restart(self, tick):
         if self.tick is not None:
-            self.step(max(0, tick + self.rate * RESTART // NANOSECONDS + 2 - self.tick))
+            self.step(max(0, tick + self._ticks_of_jump() - self.tick))
         return self._run(tick)
+
+    def _ticks_of_jump(self):
+        return self.rate * RESTART // NANOSECONDS + 2
 
     def _run(self, tick):
         with self._condition:

@@ -5,6 +5,7 @@
 import queue
 import random
 import threading
+import time
 import unittest
 
 import rospy
@@ -17,6 +18,7 @@ from vegetation_sim.msg import AgentStates, GrassState, TreadEvents
 from waiting import wait_for
 from watched_node import Log, listens
 
+WAIT = 2.0  # frame_wait of the nodes [s]
 STEPS = 90  # some of which have complete states of grass, with a hash
 LONGEST_DELAY = 0.03  # of a message, by wall time [s]
 
@@ -57,6 +59,14 @@ class PeopleOnGrass(unittest.TestCase):
         cls.simulation.reset()
         wait_for(lambda: cls.simulation.step() and sent.messages, 'treads')
 
+    def reported(self, what):
+        """Returns the value of a count in the next reports."""
+        def find(messages):
+            return [value.value for message in list(messages) for status in message.status
+                    for value in status.values if value.key == what]
+        reports = Log('/diagnostics', DiagnosticArray)
+        return reports.wait(find, what)[-1]
+
     def episode(self):
         hashes = []
         self.simulation.reset()
@@ -72,13 +82,17 @@ class PeopleOnGrass(unittest.TestCase):
         self.assertGreater(len({grass for _, grass in first}), 1)
         self.assertEqual(self.episode(), first)
         self.assertEqual(self.episode(), first)
+        for what in ('Cover maps awaited in vain', 'Treads of crowds awaited in vain'):
+            self.assertEqual(self.reported(what), '0')
 
     def test_one_crowd_that_hangs_delays_one_tick_and_is_named(self):
         reports = Log('/diagnostics', DiagnosticArray)
         wait_for(reports.connected, 'diagnostics')
         self.simulation.step()
         self.treads.holds.set()
+        begin = time.monotonic()
         self.simulation.step(3)
+        self.assertLess(time.monotonic() - begin, 1.5 * WAIT)
         reports.wait(lambda messages: any(
             'treads did not come within frame_wait' in status.message
             for message in list(messages) for status in message.status), 'the report')

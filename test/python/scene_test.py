@@ -9,6 +9,7 @@ import re
 import shutil
 import struct
 import tempfile
+import time
 import unittest
 
 import roslib.packages
@@ -23,9 +24,11 @@ from forest_rig import scene, start_node, stop
 from waiting import wait_for
 from watched_node import listens
 
+WAIT = 5.0  # frame_wait of the nodes [s]
 NODES = {
-    'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {'frame_wait': 5.0},
-    'grass_field': {'frame_wait': 5.0}, 'agent_crowd': {'frame_wait': 5.0},
+    'wind_broadcaster': {}, 'forest_animator': {}, 'canopy_animator': {'frame_wait': WAIT},
+    'grass_field': {'frame_wait': WAIT},
+    'agent_crowd': {'frame_wait': WAIT, 'cover_rate': 2.0},
 }
 SAVED, LATER = 90, 600
 
@@ -93,6 +96,19 @@ class SceneTest(unittest.TestCase):
         for node, entry in sorted(manifest['nodes'].items()):
             print('%s: %d bytes, saved in %.4f s, loaded in %.4f s' % (
                 node, entry['bytes'], entry['seconds'], replies[node].seconds))
+
+    # Treads and cover maps are on their way at some ticks.
+    def test_the_nodes_continue_from_each_tick_of_a_period_of_cover_maps(self):
+        for _ in range(16):
+            self.simulation.step()
+            self.scene.save('at_any_tick')
+            self.simulation.step(20)
+            expected = self.hashes('after')
+            self.scene.load('at_any_tick', self.simulation)
+            begin = time.monotonic()
+            self.simulation.step(20)
+            self.assertLess(time.monotonic() - begin, WAIT)
+            self.assertEqual(self.hashes('after_again'), expected)
 
     def test_the_snippet_of_the_page_runs(self):
         with open(roslib.packages.get_pkg_dir('vegetation_sim') + '/docs/snapshots.md') as page:

@@ -40,7 +40,7 @@ bool NodeBase::awaitInputs(double wait, const std::function<bool()>& is_complete
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(wait);
   while (!is_complete()) {
     const ros::WallDuration left = deadline - ros::WallTime::now();
-    if (left <= ros::WallDuration(0.0) || !ros::ok()) return false;
+    if (left <= ros::WallDuration(0.0) || is_ending_ || !ros::ok()) return false;
     awaited_.callAvailable(std::min(left, ros::WallDuration(LONGEST_LOOK)));
   }
   return true;
@@ -141,6 +141,7 @@ void NodeBase::addShards(Status& status) {
 }
 
 void NodeBase::stopCallbacks() {
+  is_ending_ = true;
   callbacks_.close();
   if (shards_) shards_->stop();
   diagnostics_timer_.stop();

@@ -7,6 +7,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <functional>
@@ -56,8 +57,8 @@ class NodeBase {
     subscribers_.push_back(subscribeWithoutDelay<Message>(handle, topic, queue, guarded));
     return subscribers_.back();
   }
-  /// Runs the callbacks of awaited topics until `is_complete()`. @param wait longest wall time [s].
-  /// @return is_complete()
+  /// Runs the callbacks of awaited topics until `is_complete()` or the node ends. @param wait
+  /// longest wall time [s]. @return is_complete()
   bool awaitInputs(double wait, const std::function<bool()>& is_complete);
   /// Subscribes to a topic that one node owns; diagnose with warnOfRivals().
   template <class Node, class Message>
@@ -261,6 +262,7 @@ class NodeBase {
   void announceShard();
 
   ros::CallbackQueue awaited_;  // outlives the subscribers
+  std::atomic<bool> is_ending_{false};
   std::vector<ros::Subscriber> subscribers_;
   std::vector<OwnedTopic> owned_;
   std::unique_ptr<ShardRequests> shards_;

@@ -216,9 +216,10 @@ class SavedNode : public NodeBase {
     ~TickScope() { in_tick = false; }
   };
 
-  // Events that a tick itself adds are in the record of the tick.
+  // Events that a tick adds for itself are in its record.
   void keepArrival(const Event& event) {
-    if (!snapshots_.hasCheckpoints() || options_.replay || in_tick_) return;
+    if (!snapshots_.hasCheckpoints() || options_.replay) return;
+    if (in_tick_ && stampOf(event) <= clock_.stamp()) return;
     acceptInput("checkpoint", [&] { snapshots_.addInput(stored(event)); });
   }
 

@@ -16,6 +16,7 @@
 namespace vegetation_sim {
 namespace {
 
+constexpr unsigned MOST_COVERS = 16;   // maps that wait for their ticks
 constexpr double TRUNK_MARGIN = 30.0;  // around the area [m]
 constexpr double SHORTEST_WAIT = 0.2;  // for the borders of other shards, wall time [s]
 
@@ -29,6 +30,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       markers_(crowd_, options_.marker_points, options_.tolerance, options_.motions,
                options_.shard.value_or(Shard())),
       robots_(options_.frame_id, options_.robots, tf_buffer_, options_.frame_wait),
+      covers_(MOST_COVERS),
       cover_wait_(options_.cover_rate, options_.state_rate) {
   crowd_.setThreads(options_.threads);
   crowd_.setObstacles(obstaclesOf(options_.scene.crowd.walls));
@@ -63,7 +65,7 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   }
   treads_publisher_ = handle_.advertise<TreadEvents>(
       "treads", 1000, [this](const ros::SingleSubscriberPublisher& subscriber) {
-        if (awaitsNodes()) subscriber.publish(emptyTreads());
+        if (awaitsMeadow() && options_.tread != Treading::NONE) subscriber.publish(emptyTreads());
       });
   start("crowd", "agents/markers", markers_);
   publishBorder();
@@ -71,8 +73,8 @@ AgentCrowd::AgentCrowd(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 void AgentCrowd::connect() {
   subscribeToShardedOwner("forest/layout", 4, &AgentCrowd::onLayout, "forest/shards");
-  covers_subscriber_ = subscribeToOwner("grass/cover/resistance", 4, &AgentCrowd::onCover,
-                                        awaitsNodes() ? Delivery::AWAITED : Delivery::AT_ONCE);
+  covers_subscriber_ = subscribeToOwner("grass/cover/resistance", MOST_COVERS, &AgentCrowd::onCover,
+                                        awaitsMeadow() ? Delivery::AWAITED : Delivery::AT_ONCE);
   if (showsAll()) subscribe("forest/sensors", 40, &AgentCrowd::onSensor);
   if (isPart() && showsAll())
     parts_subscriber_ = subscribeToShards("agents/parts", 1000, &AgentCrowd::onPart);
@@ -107,6 +109,7 @@ void AgentCrowd::tick(std::int64_t) {
   const Nanoseconds stamp = clock_.stamp();
   if (!begun_ && !options_.replay) publishBeginning(stamp);
   begun_ = true;
+  if (recovers()) cover_wait_.onLoaded(stamp);
   if (!options_.replay) {
     awaitCover(stamp);
     followRobots(stamp);
@@ -206,9 +209,7 @@ void AgentCrowd::resetCrowd(crowd::CrowdShard::Start start) {
 
 bool AgentCrowd::isLaterCover(std::uint64_t hash, Nanoseconds now) const {
   const nav_msgs::OccupancyGrid* cover = covers_.find(hash);
-  if (cover == nullptr) return false;
-  const Nanoseconds stamp = fromMsg(cover->header.stamp);
-  return stamp > now || (awaitsNodes() && stamp == now);  // in lock-step, of the run before
+  return cover != nullptr && fromMsg(cover->header.stamp) >= now;
 }
 
 // The meadow that has sent it starts afresh too.

@@ -135,12 +135,14 @@ class AgentCrowd final : public EventNode<EventQueue<CrowdEvent>, AgentCrowdConf
   void sendView(const std::vector<crowd::Walker>& walkers, Nanoseconds stamp);
   void publishMotions();
   void publishTreads();
-  /// Stamp at which the treads of the last tick act.
-  Nanoseconds stampOfTreads() const;
+  /// Stamp at which the treads of a tick act.
+  Nanoseconds stampOfTreads(std::int64_t tick) const;
   /// Returns the message of the last tick, without its treads.
   TreadEvents emptyTreads() const;
-  /// Whether ticks await what other nodes send.
-  bool awaitsNodes() const { return options_.frame_wait > 0.0 && !options_.replay; }
+  /// Whether ticks await the cover maps of a meadow, and those of the meadow these treads.
+  bool awaitsMeadow() const {
+    return options_.frame_wait > 0.0 && options_.cover_rate > 0.0 && !options_.replay;
+  }
   void treadOfBody(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
   void treadOfFeet(const crowd::Walker& walker, Nanoseconds stamp, TreadEvents& treads);
   std::vector<TierChoice> chooseFrames(Nanoseconds stamp);

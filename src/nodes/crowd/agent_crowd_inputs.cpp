@@ -44,7 +44,7 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
     checkFrame(message.header.frame_id, options_.frame_id);
     resistanceOf(message);  // checks it
     const Nanoseconds made = fromMsg(message.header.stamp);
-    if (awaitsNodes() && !cover_wait_.hear(made, clock_.stamp())) return;
+    if (awaitsMeadow() && !cover_wait_.hear(made, clock_.stamp())) return;
     const std::uint64_t hash = hashOf(message);
     if (hash == heard_cover_) return;
     covers_.keep(hash, message);
@@ -58,11 +58,10 @@ void AgentCrowd::onCover(const nav_msgs::OccupancyGrid& message) {
 }
 
 void AgentCrowd::awaitCover(Nanoseconds stamp) {
-  if (!awaitsNodes()) return;
+  if (!awaitsMeadow()) return;
   cover_wait_.begin(stamp);
-  if (awaitInputs(options_.frame_wait, [&] { return hasCoverOf(stamp - CoverWait::LEAD); })) return;
-  cover_wait_.giveUp();
-  ++unsent_covers_;
+  unsent_covers_ += cover_wait_.endWait(
+      awaitInputs(options_.frame_wait, [&] { return hasCoverOf(stamp - CoverWait::LEAD); }));
 }
 
 bool AgentCrowd::hasCoverOf(Nanoseconds tick) const {

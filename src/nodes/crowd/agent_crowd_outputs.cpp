@@ -88,20 +88,20 @@ TreadEvents AgentCrowd::emptyTreads() const {
   TreadEvents out;
   out.header.frame_id = options_.frame_id;
   if (clock_.hasBegun()) out.header.stamp = toStamp(clock_.stamp());
-  if (!awaitsNodes()) return out;
+  if (!awaitsMeadow()) return out;
   out.complete_until = ros::Time(0, 1);  // before the first tick there are none
-  if (clock_.hasBegun()) out.complete_until = toStamp(stampOfTreads());
+  if (clock_.hasBegun()) out.complete_until = toStamp(stampOfTreads(clock_.tick() + 1) - 1);
   return out;
 }
 
-Nanoseconds AgentCrowd::stampOfTreads() const {
-  return clock_.grid().timeOf(clock_.tick() + options_.tread_ahead);
+Nanoseconds AgentCrowd::stampOfTreads(std::int64_t tick) const {
+  return clock_.grid().timeOf(tick + options_.tread_ahead);
 }
 
 void AgentCrowd::publishTreads() {
   if (options_.tread == Treading::NONE) return;
   TreadEvents treads = emptyTreads();
-  const Nanoseconds stamp = stampOfTreads();
+  const Nanoseconds stamp = stampOfTreads(clock_.tick());
   for (const crowd::Walker& walker : crowd_.walkers()) {
     if (options_.tread == Treading::BODY)
       treadOfBody(walker, stamp, treads);
@@ -113,7 +113,7 @@ void AgentCrowd::publishTreads() {
                 ? std::next(entry)
                 : trodden_.erase(entry);
   if (recovers()) return;  // those of ticks that run again were published
-  if (treads.events.empty() && !awaitsNodes()) return;
+  if (treads.events.empty() && !awaitsMeadow()) return;
   treads_ += treads.events.size();
   treads_publisher_.publish(treads);
 }
@@ -209,7 +209,7 @@ void AgentCrowd::sendFrames() {
 void AgentCrowd::addDiagnostics(Status& status) {
   robots_.missing().warn(name_, status);
   warnOfMore(status, unsent_covers_, reported_unsent_,
-             "times that a cover map did not come within frame_wait");
+             "times that a cover map of cover_rate did not come within frame_wait");
   reported_unsent_ = unsent_covers_;
   const std::uint64_t dropped = inbox_ ? inbox_->dropped() : 0;
   warnOfMore(status, dropped, reported_dropped_, "borders of shards dropped, too large");
@@ -227,6 +227,7 @@ void AgentCrowd::addDiagnostics(Status& status) {
   status.add("People who wait for another shard", shard_ ? shard_->waiting().size() : 0);
   status.add("Borders of shards too late for their tick", inbox_ ? inbox_->late() : 0);
   status.add("People of shards too late for their tick", parts_ ? parts_->late() : 0);
+  status.add("Cover maps awaited in vain", unsent_covers_);
   status.add("Treads sent", treads_);
   status.add("State sent [B]", state_bytes_);
   status.add("View sent [B]", view_bytes_);

@@ -150,7 +150,7 @@ void AgentCrowd::queueNewerInputs() {
   event.kind = CrowdEvent::TRUNKS;
   event.input_hash = heard_layout_;
   if (heard_layout_ != 0 && heard_layout_ != trunks_hash_) inputs_.add(event);
-  if (awaitsNodes()) {  // the meadow has loaded the state that fits this cover
+  if (awaitsMeadow()) {  // the meadow has loaded the state that fits this cover
     heard_cover_ = 0;
     return;
   }
@@ -161,7 +161,7 @@ void AgentCrowd::queueNewerInputs() {
 
 // A map of the last tick waits in the queue, which is saved.
 void AgentCrowd::awaitInputsToSave() {
-  if (awaitsNodes() && clock_.hasBegun())
+  if (awaitsMeadow() && clock_.hasBegun())
     awaitInputs(options_.frame_wait, [this] { return hasCoverOf(clock_.stamp()); });
 }
 

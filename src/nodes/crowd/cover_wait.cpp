@@ -7,32 +7,34 @@
 namespace vegetation_sim {
 
 void CoverWait::begin(Nanoseconds tick) {
-  if (!first_) first_ = tick;
+  if (first_) return;
+  first_ = tick;
+  if (!has_jumped_back_) newest_ = tick;
 }
 
 bool CoverWait::hear(Nanoseconds stamp, Nanoseconds now) {
   if (has_jumped_back_ && stamp > now) return false;
   has_jumped_back_ = false;
   if (loaded_ && stamp > *loaded_ - LEAD && stamp <= *loaded_) return false;
-  awaits_ = true;
   newest_ = stamp;
+  backoff_.onMessage();
   return true;
 }
 
 bool CoverWait::hasMapOf(Nanoseconds tick) const {
-  if (!awaits_ || !first_ || tick < *first_) return true;
+  if (!backoff_.isAwaited() || !first_ || tick < *first_) return true;
   return newest_ && periodOfMap(*newest_) >= periodOfMap(tick);
 }
 
 void CoverWait::jumpBack() {
-  awaits_ = has_jumped_back_ = true;
+  has_jumped_back_ = true;
   first_.reset();
   newest_.reset();
   loaded_.reset();
 }
 
 void CoverWait::onLoaded(Nanoseconds tick) {
-  loaded_ = tick;
+  loaded_ = newest_ = tick;
   first_ = grid_.timeOf(grid_.tickAt(tick) + 1);
 }
 

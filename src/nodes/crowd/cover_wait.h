@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "nodes/base/wait_backoff.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
 
-/// Which cover maps of a meadow a crowd awaits: a meadow makes one at its first tick and at the
-/// first tick of each period.
+/// Which cover maps of a meadow a crowd awaits: one of the first tick of each period. One of the
+/// first tick of all is awaited after a jump back only, when meadow and crowd begin together.
 class CoverWait {
  public:
   /// Time between the tick of a cover map and the tick at which all shards apply it.
@@ -26,8 +27,8 @@ class CoverWait {
   bool hear(Nanoseconds stamp, Nanoseconds now);
   /// Whether the newest map of this tick or an earlier one has come, or none is due.
   bool hasMapOf(Nanoseconds tick) const;
-  /// Awaits no map until one has come.
-  void giveUp() { awaits_ = false; }
+  /// Ends the wait of a tick. @return whether a map was awaited in vain.
+  bool endWait(bool has_come) { return backoff_.endWait(has_come); }
   /// Awaits the maps of a meadow that starts afresh, because the clock has jumped back. Those of a
   /// stamp later than the tick are void until one is not.
   void jumpBack();
@@ -41,10 +42,10 @@ class CoverWait {
   double rate_;
   TickGrid grid_;
   std::optional<Nanoseconds> first_;   // tick that may have a map
-  std::optional<Nanoseconds> newest_;  // map that has come
+  std::optional<Nanoseconds> newest_;  // map that has come, or tick that needs none
   std::optional<Nanoseconds> loaded_;  // tick of the state
-  bool awaits_{true};
-  bool has_jumped_back_{false};  // and no map has come since then
+  bool has_jumped_back_{false};        // and no map has come since then
+  WaitBackoff backoff_;
 };
 
 }  // namespace vegetation_sim

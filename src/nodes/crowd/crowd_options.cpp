@@ -60,7 +60,7 @@ void describe(FieldVisitor& v, CrowdOptions& o) {
   v.integer("tf_budget", o.tf_budget, "", {0, 10000});
   v.choice("tread", o.tread, {"none", "body", "feet"});
   v.number("tread_radius", o.tread_radius, "m", {0.0, 2.0});
-  v.number("cover_rate", o.cover_rate, "Hz", {0.1, 60.0});
+  v.number("cover_rate", o.cover_rate, "Hz", {0.0, 60.0});
   v.integer("tread_ahead", o.tread_ahead, "", {0, 60});
   v.choice("trunks", o.trunks, {"round", "box"});
   v.integer("most_trunks", o.most_trunks, "", {0, 1000000});

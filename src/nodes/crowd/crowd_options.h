@@ -40,7 +40,7 @@ struct CrowdOptions : NodeOptions {
   std::string frame_prefix;  ///< precedes walker_<id>
   Treading tread{Treading::BODY};
   double tread_radius{0.0};  ///< 0: 0.16 of a body, 0.06 of a foot [m]
-  double cover_rate{2.0};    ///< of the meadow whose cover maps ticks await [Hz]
+  double cover_rate{0.0};    ///< of the meadow whose cover maps ticks await [Hz]; 0: none
   int tread_ahead{0};        ///< ticks from that of the people to that of their treads
   TrunkShape trunks{TrunkShape::ROUND};
   int most_trunks{100000};           ///< near the area

@@ -18,6 +18,7 @@ namespace vegetation_sim {
 namespace {
 
 using Events = std::vector<GrassEvent>::iterator;
+constexpr unsigned MOST_AWAITED = 100;  // messages of `treads` between two ticks
 
 // Events are large, so they are moved once.
 void sortBySource(Events first, Events last) {
@@ -90,8 +91,10 @@ void GrassField::connect() {
   subscribeToOwner("wind", 10, &GrassField::onWind);
   if (!options_.replay) {
     subscribe("tread", EventQueue<GrassEvent>::MOST_WAITING, &GrassField::onTread);
-    subscribe("treads", 1000, &GrassField::onTreads,
-              awaitsNodes() ? Delivery::AWAITED : Delivery::AT_ONCE);
+    if (awaitsNodes())
+      subscribe("treads", MOST_AWAITED, &GrassField::onTreads, Delivery::AWAITED);
+    else
+      subscribe("treads", 1000, &GrassField::onTreads);
   }
   subscribe("forest/sensors", 40, &GrassField::onSensor);
   connectServices();

@@ -106,8 +106,8 @@ void GrassField::onTreads(const TreadEvents& message) {
 
 void GrassField::awaitTreads(Nanoseconds stamp) {
   if (!awaitsNodes()) return;
-  if (!awaitInputs(options_.frame_wait, [&] { return tread_senders_.areComplete(stamp); }))
-    unsent_treads_ += tread_senders_.giveUp(stamp);
+  awaitInputs(options_.frame_wait, [&] { return tread_senders_.areComplete(stamp); });
+  unsent_treads_ += tread_senders_.endWait(stamp);
 }
 
 // Treads that act later wait in the queue, which is saved.

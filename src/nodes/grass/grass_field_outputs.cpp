@@ -176,6 +176,7 @@ void GrassField::addDiagnostics(Status& status) {
              "times that a crowd's treads did not come within frame_wait");
   reported_unsent_ = unsent_treads_;
   if (isPart()) status.add("Treads after their tick", late_treads_);
+  status.add("Treads of crowds awaited in vain", unsent_treads_);
   status.add("Sources", field_->sources().size());
   status.add("Sources without a position", sources_.missing().size());
   status.add("Cutters without a position", cutters_.missing().size());

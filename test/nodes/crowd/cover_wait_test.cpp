@@ -15,9 +15,10 @@ Nanoseconds at(std::int64_t tick) {
   return GRID.timeOf(tick);
 }
 
-/// Of a meadow with two maps a second: at ticks 1000, 1005, 1020, 1035.
+/// Of a meadow with two maps a second: at ticks 1005, 1020, 1035, and at 1000 where it begins too.
 CoverWait begun() {
   CoverWait out(2.0, RATE);
+  out.jumpBack();
   out.begin(at(FIRST));
   return out;
 }
@@ -26,7 +27,7 @@ TEST(CoverWait, TheFirstTickAndThatOfEachPeriodHaveAMap) {
   CoverWait wait = begun();
   EXPECT_TRUE(wait.hasMapOf(at(FIRST - 1)));  // before the meadow
   EXPECT_FALSE(wait.hasMapOf(at(FIRST)));
-  EXPECT_TRUE(wait.hear(at(FIRST), at(FIRST + 1)));
+  EXPECT_TRUE(wait.hear(at(FIRST), at(FIRST)));
   EXPECT_TRUE(wait.hasMapOf(at(1004)));
   EXPECT_FALSE(wait.hasMapOf(at(1005)));
   EXPECT_TRUE(wait.hear(at(1005), at(1006)));
@@ -36,16 +37,25 @@ TEST(CoverWait, TheFirstTickAndThatOfEachPeriodHaveAMap) {
   EXPECT_TRUE(wait.hasMapOf(at(1020)));
 }
 
+TEST(CoverWait, AMeadowThatRunsAlreadyMakesTheMapOfTheNextPeriod) {
+  CoverWait wait(2.0, RATE);
+  wait.begin(at(1007));
+  EXPECT_TRUE(wait.hasMapOf(at(1019)));
+  EXPECT_FALSE(wait.hasMapOf(at(1020)));
+}
+
 TEST(CoverWait, AMeadowThatHangsIsAwaitedAgainOnceItSends) {
   CoverWait wait = begun();
-  wait.giveUp();
+  EXPECT_TRUE(wait.endWait(wait.hasMapOf(at(1020))));
   EXPECT_TRUE(wait.hasMapOf(at(1020)));
-  EXPECT_TRUE(wait.hear(at(1020), at(1021)));
+  EXPECT_FALSE(wait.endWait(true));
+  EXPECT_TRUE(wait.hear(at(1000), at(1000)));
   EXPECT_FALSE(wait.hasMapOf(at(1035)));
 }
 
 TEST(CoverWait, MapsFromBeforeAJumpBackAreVoid) {
   CoverWait wait = begun();
+  wait.hear(at(FIRST), at(FIRST));
   wait.hear(at(1020), at(1021));
   wait.jumpBack();
   wait.begin(at(FIRST));
@@ -57,11 +67,14 @@ TEST(CoverWait, MapsFromBeforeAJumpBackAreVoid) {
 
 TEST(CoverWait, MapsFromBeforeALoadAreVoid) {
   CoverWait wait = begun();
-  wait.onLoaded(at(1020));
+  wait.hear(at(FIRST), at(FIRST));
+  wait.onLoaded(at(1006));
+  EXPECT_TRUE(wait.hasMapOf(at(1019)));  // that of 1005 is in the state
+  EXPECT_FALSE(wait.hear(at(1006), at(1007)));
+  EXPECT_FALSE(wait.hasMapOf(at(1020)));
+  EXPECT_TRUE(wait.hear(at(1), at(1007)));  // a map that does not change
+  EXPECT_TRUE(wait.hear(at(1020), at(1021)));
   EXPECT_TRUE(wait.hasMapOf(at(1020)));
-  EXPECT_FALSE(wait.hear(at(1020), at(1021)));
-  EXPECT_TRUE(wait.hear(at(1), at(1021)));  // a map that does not change
-  EXPECT_TRUE(wait.hear(at(1021), at(1022)));
 }
 
 }  // namespace

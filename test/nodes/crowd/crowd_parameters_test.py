@@ -16,7 +16,7 @@ BAD = {
     'tf_rate': (1e6, 'tf_rate = 1e+06 Hz is outside 0.1 to 240'),
     'tf_budget': (-1, 'tf_budget = -1 is outside 0 to 10000'),
     'frame_wait': (-1.0, 'frame_wait = -1 s is outside 0 to 60'),
-    'cover_rate': (0.0, 'cover_rate = 0 Hz is outside 0.1 to 60'),
+    'cover_rate': (-1.0, 'cover_rate = -1 Hz is outside 0 to 60'),
     'tread': ('hands', 'tread'),
     'tread_ahead': (61, 'tread_ahead = 61 is outside 0 to 60'),
     'tread_radius': (-1.0, 'tread_radius = -1 m is outside 0 to 2'),

@@ -14,7 +14,7 @@ from crowd_rig import Crowd, at
 from forest_rig import time_of
 from snapshot_rig import START, RunningNode, SnapshotCase
 from waiting import wait_for
-from watched_node import publisher
+from watched_node import all_delivered, publisher
 
 
 def cover(seed):
@@ -93,6 +93,30 @@ class CrowdSnapshot(SnapshotCase):
         self.assertGreater(len(both), 100)
         self.assertEqual([s for s in both if run[s] != replay[s]], [])
         self.assertIn('recorded events only', again.refusal('before'))
+
+    def hash_with_awaited_cover(self, namespace, is_sent, is_killed):
+        """Returns the hash of a run in which a cover comes at tick 11, and acts at tick 16."""
+        node = self.start(namespace, 0, checkpoint=is_killed, frame_wait=5.0, cover_rate=0.1,
+                          checkpoint_period=3600.0 if is_killed else 0.0)
+        self.clock.run(10, node.client)
+        if is_sent:
+            message = cover(7)
+            message.header.stamp = self.stamp_of(10)
+            node.covers.publish(message)
+            wait_for(all_delivered, 'the cover')
+        self.clock.run(3, node.client)
+        if is_killed:
+            node.kill()
+        for tick in range(14, 31):
+            self.finish(node, tick)
+        out = node.state_hash()
+        node.stop()
+        return out
+
+    def test_an_awaited_cover_survives_a_kill(self):
+        expected = self.hash_with_awaited_cover('whole', True, False)
+        self.assertNotEqual(self.hash_with_awaited_cover('without', False, False), expected)
+        self.assertEqual(self.hash_with_awaited_cover('killed', True, True), expected)
 
     def run_both(self, live, again, ticks):
         """Runs single ticks; before each one the replay has received the events of the one

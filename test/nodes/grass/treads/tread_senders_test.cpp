@@ -26,17 +26,29 @@ TEST(TreadSenders, OneWhoIsLateIsAwaitedAgainOnceItSends) {
   TreadSenders senders;
   senders.hear("crowd", 100, 100, 100);
   senders.hear("hanging", 90, 90, 100);
-  EXPECT_EQ(senders.giveUp(100), 1U);
+  EXPECT_EQ(senders.endWait(100), 1U);
   EXPECT_TRUE(senders.areComplete(100));
   EXPECT_FALSE(senders.areComplete(101));
   senders.hear("crowd", 101, 101, 101);
   EXPECT_TRUE(senders.areComplete(101));
   senders.hear("hanging", 91, 91, 101);
   EXPECT_FALSE(senders.areComplete(101));
+  EXPECT_EQ(senders.endWait(101), 1U);
+  senders.hear("crowd", 110, 110, 110);
+  senders.hear("hanging", 92, 92, 101);  // now the second message counts
+  EXPECT_TRUE(senders.areComplete(110));
+  senders.hear("hanging", 93, 93, 101);
+  EXPECT_FALSE(senders.areComplete(110));
+  senders.hear("hanging", 110, 110, 110);
+  EXPECT_EQ(senders.endWait(110), 0U);
+  EXPECT_EQ(senders.endWait(111), 2U);
+  senders.hear("hanging", 111, 111, 111);  // it was in time, so the next one counts
+  EXPECT_FALSE(senders.areComplete(112));
 }
 
 TEST(TreadSenders, MessagesFromBeforeAJumpBackAreVoid) {
   TreadSenders senders;
+  senders.hear("robot", 100, 0, 100);
   senders.hear("crowd", 100, 100 + AHEAD, 100);
   senders.jumpBack();
   EXPECT_FALSE(senders.areComplete(10));
@@ -44,13 +56,15 @@ TEST(TreadSenders, MessagesFromBeforeAJumpBackAreVoid) {
   EXPECT_FALSE(senders.areComplete(10));
   EXPECT_TRUE(senders.hear("crowd", 10, 10 + AHEAD, 10));
   EXPECT_TRUE(senders.areComplete(10));
+  EXPECT_FALSE(senders.hear("robot", 101, 0, 10));
+  EXPECT_TRUE(senders.hear("robot", 10, 0, 10));
   EXPECT_TRUE(senders.hear("crowd", 11, 11 + AHEAD, 10));  // ahead of this node, which lags behind
 }
 
 TEST(TreadSenders, OneWhoIsLateAndJumpsBackIsNotAwaitedUntilItSends) {
   TreadSenders senders;
   senders.hear("crowd", 100, 100, 100);
-  senders.giveUp(101);
+  senders.endWait(101);
   senders.jumpBack();
   EXPECT_TRUE(senders.areComplete(10));
   EXPECT_FALSE(senders.hear("crowd", 101, 101, 10));
