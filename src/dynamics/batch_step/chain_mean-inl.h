@@ -12,7 +12,7 @@
 #define VEGETATION_SIM_PHYSICS_CHAIN_MEAN_INL_H_
 #endif
 
-#include "dynamics/batch_step/chain_back-inl.h"
+#include "dynamics/batch_step/chain_step-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace vegetation_sim::physics::HWY_NAMESPACE {

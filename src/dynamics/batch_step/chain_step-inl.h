@@ -1,14 +1,14 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The other two passes: back to the roots with Featherstone's articulated inertias, with spring,
-// damper and theta scheme in the joint-space inertia, and out again with the accelerations.
-// Included once per instruction set.
+// Step of the joints, by the other two passes: back to the roots with Featherstone's articulated
+// inertias, with spring, damper and theta scheme in the joint-space inertia, and out again with the
+// accelerations. Included once per instruction set.
 
-#if defined(VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
-#undef VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
+#if defined(VEGETATION_SIM_PHYSICS_CHAIN_STEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VEGETATION_SIM_PHYSICS_CHAIN_STEP_INL_H_
+#undef VEGETATION_SIM_PHYSICS_CHAIN_STEP_INL_H_
 #else
-#define VEGETATION_SIM_PHYSICS_CHAIN_BACK_INL_H_
+#define VEGETATION_SIM_PHYSICS_CHAIN_STEP_INL_H_
 #endif
 
 #include "dynamics/batch_step/chain_body-inl.h"
