@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 #include "dynamics/integration/integrator.h"
 #include "forest/contact/contact_body.h"
 #include "forest/contact/contact_finder.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 #include "forest/contact/contact_body.h"
 #include "tree/growth/tree_grid.h"
 #include "tree/growth/tree_owners.h"

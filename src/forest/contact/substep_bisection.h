@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim::forest {

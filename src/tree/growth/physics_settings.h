@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "dynamics/contact/contact_law.h"
+#include "dynamics/contact/contact_settings.h"
 #include "dynamics/integration/method.h"
 #include "vegetation_sim/core/config/fields.h"
 #include "vegetation_sim/core/math/time.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/batch_step/chain_sweep.h"
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 #include "dynamics/integration/integrator.h"
 #include "tree/physical/procedural_motion.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 
 namespace vegetation_sim::physics {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/contact/contact.h"
+#include "dynamics/contact/contact_stepper.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 namespace vegetation_sim::physics {
 
-/// Force between a body and a branch: a spring on the overlap, evaluated at the end of the step,
-/// whose force is limited (docs/contact.md). In a contact with harder wood, limit and stiffness are
-/// a multiple (Contact::hardness).
+/// Settings of the force between a body and a branch, which ContactStepper computes: a spring on
+/// the overlap, evaluated at the end of the step, whose force is limited (docs/contact.md). In a
+/// contact with harder wood, limit and stiffness are a multiple (Contact::hardness).
 struct ContactLaw {
   double stiffness{5e5};       ///< [N/m]; a step of any length is stable
   double force_limit{2000.0};  ///< per contact [N]

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/chain/articulated.h"
-#include "dynamics/contact/contact_law.h"
+#include "dynamics/contact/contact_settings.h"
 
 namespace vegetation_sim::physics {
 
