@@ -8,7 +8,7 @@
 
 #include "grass/tread/area_rows.h"
 #include "grass/tread/tile_nodes.h"
-#include "grass/tread/tread_lanes.h"
+#include "grass/tread/tread_tilt.h"
 #include "vegetation_sim/core/math/hash.h"
 
 namespace vegetation_sim::grass {

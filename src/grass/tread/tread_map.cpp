@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "grass/map/tile_owners.h"
-#include "grass/tread/tread_stroke.h"
+#include "grass/tread/tread_press.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::grass {

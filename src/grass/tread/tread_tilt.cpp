@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "grass/tread/tread_lanes.h"
+#include "grass/tread/tread_tilt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 // Vectors without arithmetic operators are not used; their processors run the plain target.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "grass/tread/tread_lanes.cpp"
+#define HWY_TARGET_INCLUDE "grass/tread/tread_tilt.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#ifndef VEGETATION_SIM_GRASS_TREAD_LANES_ONCE
-#define VEGETATION_SIM_GRASS_TREAD_LANES_ONCE
+#ifndef VEGETATION_SIM_GRASS_TREAD_TILT_ONCE
+#define VEGETATION_SIM_GRASS_TREAD_TILT_ONCE
 namespace vegetation_sim::grass {
 
 /// Packs row and column; adding 1 gives the next column.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "grass/tread/tread_lanes.h"
 #include "grass/tread/tread_recovery.h"
+#include "grass/tread/tread_tilt.h"
 
 namespace vegetation_sim::grass {
 
