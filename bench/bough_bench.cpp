@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "scenes/forest/forest_fixture.h"
+#include "tree/mesh/bark_mesh.h"
 #include "tree/mesh/bough_levels.h"
-#include "tree/mesh/mesh.h"
 #include "tree/mesh/skin.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 

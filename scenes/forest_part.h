@@ -7,7 +7,7 @@
 
 #include "scenes/hashing.h"
 #include "scenes/scenario.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 #include "vegetation_sim/forest/forest_replica.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 

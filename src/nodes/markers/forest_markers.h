@@ -9,7 +9,7 @@
 #include "forest/forest.h"
 #include "forest/tree_cache.h"
 #include "nodes/markers/marker_publisher.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim {
 

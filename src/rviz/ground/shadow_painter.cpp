@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim::view {
 namespace {

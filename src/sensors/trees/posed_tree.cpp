@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "sensors/media/beer_lambert.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim::forest {
 

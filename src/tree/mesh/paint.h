@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 #include "vegetation_sim/tree/growth/species.h"
 
 namespace vegetation_sim::forest {

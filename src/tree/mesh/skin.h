@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::forest {

@@ -9,7 +9,7 @@
 #include "forest/nearest.h"
 #include "forest/pick.h"
 #include "scenes/forest/physics_scene.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim::forest {
 namespace {

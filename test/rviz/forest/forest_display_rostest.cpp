@@ -9,7 +9,7 @@
 
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim {
 namespace {

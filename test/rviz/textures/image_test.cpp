@@ -8,7 +8,7 @@
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
 #include "rviz/textures/sky_texture.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim::view {
 namespace {

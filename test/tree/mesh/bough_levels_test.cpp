@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scenes/forest/forest_fixture.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenes/forest/forest_fixture.h"
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 #include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::forest {

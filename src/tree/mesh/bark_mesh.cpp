@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/mesh/mesh.h"
+#include "tree/mesh/bark_mesh.h"
 
 #include <algorithm>
 #include <cmath>
