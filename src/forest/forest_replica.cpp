@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tree/growth/tree_owners.h"
+#include "tree/shards/tree_owners.h"
 
 namespace vegetation_sim::forest {
 namespace {

@@ -12,7 +12,7 @@
 #include "dynamics/contact/contact_stepper.h"
 #include "forest/contact/contact_body.h"
 #include "tree/growth/tree_grid.h"
-#include "tree/growth/tree_owners.h"
+#include "tree/shards/tree_owners.h"
 #include "vegetation_sim/tree/state/promoted_branches.h"
 
 namespace vegetation_sim::forest {

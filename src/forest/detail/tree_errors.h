@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "forest/detail/tree_regions.h"
-#include "tree/growth/tree_owners.h"
 #include "tree/lod/level_table.h"
+#include "tree/shards/tree_owners.h"
 #include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::forest {

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "tree/growth/tree_owners.h"
+#include "tree/shards/tree_owners.h"
 #include "vegetation_sim/tree/growth/forest_layout.h"
 #include "vegetation_sim/tree/growth/skeleton.h"
 

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/growth/tree_owners.h"
+#include "tree/shards/tree_owners.h"
 
 #include <gtest/gtest.h>
 
