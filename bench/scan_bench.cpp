@@ -17,7 +17,7 @@
 #include "reference/sensors/binary_scene.h"
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
-#include "sensors/camera/camera.h"
+#include "sensors/camera/pixels.h"
 #include "sensors/sky_view.h"
 #include "sensors/sweep.h"
 #include "vegetation_sim/core/config/instruction_set.h"

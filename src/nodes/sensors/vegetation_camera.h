@@ -8,6 +8,7 @@
 #include "nodes/sensors/camera_options.h"
 #include "nodes/sensors/lens_calibration.h"
 #include "nodes/sensors/sensor_base.h"
+#include "sensors/camera/pixels.h"
 
 namespace vegetation_sim {
 

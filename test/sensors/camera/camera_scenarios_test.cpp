@@ -13,7 +13,7 @@
 #include "reference/sensors/camera_plain.h"
 #include "scenes/sensors/lidar_scene.h"
 #include "scenes/shipped_scene.h"
-#include "sensors/camera/camera.h"
+#include "sensors/camera/pixels.h"
 
 namespace vegetation_sim::scan {
 namespace {

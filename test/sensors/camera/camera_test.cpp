@@ -13,6 +13,7 @@
 
 #include "scenes/sensors/grove_scene.h"
 #include "scenes/sensors/lidar_scene.h"
+#include "sensors/camera/pixels.h"
 
 namespace vegetation_sim::scan {
 namespace {
@@ -154,7 +155,7 @@ TEST(Camera, ImagesAreTheSameForAnyNumberOfThreads) {
   const Place place;
   Camera camera = smallCamera();
   camera.samples = 2;
-  camera.photo.read_noise = camera.photo.shot_noise = 0.02;
+  camera.exposure.read_noise = camera.exposure.shot_noise = 0.02;
   const Images one = takeImages(place.scene, camera, place.pose, {3, 9, 2}, Wanted(), alone);
   for (const int count : {2, 3, 8}) {
     ThreadPool threads(count);

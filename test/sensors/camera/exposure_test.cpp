@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/camera/photo.h"
+#include "sensors/camera/exposure.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ double signalOf(double value) {
   return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
-TEST(Photo, SignalsFollowTheCurveOfSrgb) {
+TEST(Exposure, SignalsFollowTheCurveOfSrgb) {
   EXPECT_EQ(encode(-0.1), 0);
   EXPECT_EQ(encode(0.0), 0);
   EXPECT_EQ(encode(0.18), 118);  // the grey card
@@ -27,11 +27,11 @@ TEST(Photo, SignalsFollowTheCurveOfSrgb) {
   for (int value = 0; value < 256; ++value) EXPECT_EQ(encode(signalOf(value)), value);
 }
 
-TEST(Photo, ExposureMultipliesTheRadiance) {
-  Photo photo;
-  const Rgb8 once = develop(photo, Vec3(0.1, 0.2, 0.4), nullptr);
-  photo.exposure = 4.0;
-  const Rgb8 more = develop(photo, Vec3(0.025, 0.05, 0.1), nullptr);
+TEST(Exposure, FactorMultipliesTheRadiance) {
+  Exposure exposure;
+  const Rgb8 once = develop(exposure, Vec3(0.1, 0.2, 0.4), nullptr);
+  exposure.factor = 4.0;
+  const Rgb8 more = develop(exposure, Vec3(0.025, 0.05, 0.1), nullptr);
   EXPECT_EQ(once.red, more.red);
   EXPECT_EQ(once.green, more.green);
   EXPECT_EQ(once.blue, more.blue);
@@ -40,16 +40,16 @@ TEST(Photo, ExposureMultipliesTheRadiance) {
 
 // The law: variance read^2 + shot^2 s of a signal s. Values are inverted to signals; a level near
 // 0.5 is 0.009 wide, whose rounding adds 0.009^2/12.
-TEST(Photo, NoiseHasTheMeanAndVarianceOfItsLaw) {
-  Photo photo;
-  photo.read_noise = 0.03;
-  photo.shot_noise = 0.06;
+TEST(Exposure, NoiseHasTheMeanAndVarianceOfItsLaw) {
+  Exposure exposure;
+  exposure.read_noise = 0.03;
+  exposure.shot_noise = 0.06;
   constexpr int PIXELS = 40000;
   for (const double signal : {0.3, 0.5}) {
     double sum = 0.0, squares = 0.0;
     for (std::uint64_t i = 0; i < PIXELS; ++i) {
       const RayRandom random({3, 7, 2}, i);
-      const double one = signalOf(develop(photo, Vec3(0.1, signal, 0.7), &random).green);
+      const double one = signalOf(develop(exposure, Vec3(0.1, signal, 0.7), &random).green);
       sum += one;
       squares += one * one;
     }
@@ -62,14 +62,14 @@ TEST(Photo, NoiseHasTheMeanAndVarianceOfItsLaw) {
   }
 }
 
-TEST(Photo, NoiseOfChannelsPixelsAndTicksIsIndependent) {
-  Photo photo;
-  photo.read_noise = 0.1;
+TEST(Exposure, NoiseOfChannelsPixelsAndTicksIsIndependent) {
+  Exposure exposure;
+  exposure.read_noise = 0.1;
   double channels = 0.0, pixels = 0.0, ticks = 0.0;
   constexpr int PIXELS = 20000;
   const auto error = [&](std::uint64_t tick, std::uint64_t pixel, bool blue) {
     const RayRandom random({1, tick, 2}, pixel);
-    const Rgb8 out = develop(photo, Vec3(0.5, 0.5, 0.5), &random);
+    const Rgb8 out = develop(exposure, Vec3(0.5, 0.5, 0.5), &random);
     return (signalOf(blue ? out.blue : out.red) - 0.5) / 0.1;
   };
   for (std::uint64_t i = 0; i < PIXELS; ++i) {

@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sensors/camera/photo.h"
+#include "sensors/camera/exposure.h"
 
 #include <cmath>
 
@@ -8,10 +8,10 @@
 
 namespace vegetation_sim::scan {
 
-void describe(FieldVisitor& v, Photo& p) {
-  v.number("exposure", p.exposure, "", {0.001, 1000.0});
-  v.number("read_noise", p.read_noise, "", {0.0, 1.0});
-  v.number("shot_noise", p.shot_noise, "", {0.0, 1.0});
+void describe(FieldVisitor& v, Exposure& e) {
+  v.number("exposure", e.factor, "", {0.001, 1000.0});
+  v.number("read_noise", e.read_noise, "", {0.0, 1.0});
+  v.number("shot_noise", e.shot_noise, "", {0.0, 1.0});
 }
 
 std::uint8_t encode(double signal) {
@@ -20,13 +20,13 @@ std::uint8_t encode(double signal) {
   return static_cast<std::uint8_t>(std::lround(255.0 * value));
 }
 
-Rgb8 develop(const Photo& photo, const Vec3& radiance, const RayRandom* random) {
+Rgb8 develop(const Exposure& exposure, const Vec3& radiance, const RayRandom* random) {
   std::uint8_t out[3];
   for (int i = 0; i < 3; ++i) {
-    double signal = photo.exposure * radiance[i];
+    double signal = exposure.factor * radiance[i];
     if (random)
-      signal += std::sqrt(photo.read_noise * photo.read_noise +
-                          photo.shot_noise * photo.shot_noise * signal) *
+      signal += std::sqrt(exposure.read_noise * exposure.read_noise +
+                          exposure.shot_noise * exposure.shot_noise * signal) *
                 random->unitNoise(i);
     out[i] = encode(signal);
   }
