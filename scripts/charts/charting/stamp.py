@@ -10,6 +10,8 @@ import subprocess
 
 FILE = 'charts.json'
 ROOT = pathlib.Path(__file__).resolve().parents[3]  # of the package's sources, unless installed
+# The widest first, by the name of the flag in /proc/cpuinfo.
+INSTRUCTION_SETS = {'AVX-512': 'avx512bw', 'AVX2': 'avx2', 'SSE4': 'sse4_2', 'NEON': 'asimd'}
 # Strings are kept, comments become spaces.
 COMMENTS = re.compile(r'("(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\')|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
@@ -42,15 +44,19 @@ def hash_of(sources, root=ROOT):
 
 
 def machine():
-    """Returns the name of the processor and the number of its cores."""
-    name = 'unknown processor'
+    """Returns the name of the processor, the number of its cores, and its widest instruction
+    set."""
+    name, flags = 'unknown processor', set()
     try:
         text = pathlib.Path('/proc/cpuinfo').read_text()
         names = re.findall(r'^model name\s*: (.*)$', text, re.MULTILINE)
         name = names[0].strip() if names else name
+        lists = re.findall(r'^(?:flags|Features)\s*: (.*)$', text, re.MULTILINE)
+        flags = set(lists[0].split()) if lists else flags
     except OSError:
         pass
-    return '%s, %d cores' % (name, len(os.sched_getaffinity(0)))
+    sets = [known for known, flag in INSTRUCTION_SETS.items() if flag in flags]
+    return ', '.join([name, '%d cores' % len(os.sched_getaffinity(0))] + sets[:1])
 
 
 def commit():
