@@ -42,8 +42,6 @@ class Simulation:
     def reset(self):
         """Restarts the nodes: each becomes what a fresh start at the start time would be. Returns
         what observe() does."""
-        if self.tick is None:  # nodes that have just started begin together at a jump back only
-            self._run(self.start + self._ticks_of_jump())
         return self._restart(self.start)
 
     def seek(self, stamp):
@@ -75,11 +73,8 @@ class Simulation:
 
     def _restart(self, tick):
         if self.tick is not None:
-            self.step(max(0, tick + self._ticks_of_jump() - self.tick))
+            self.step(max(0, tick + self.rate * RESTART // NANOSECONDS + 2 - self.tick))
         return self._run(tick)
-
-    def _ticks_of_jump(self):
-        return self.rate * RESTART // NANOSECONDS + 2
 
     def _run(self, tick):
         with self._condition:

@@ -7,9 +7,7 @@
 namespace vegetation_sim {
 
 void CoverWait::begin(Nanoseconds tick) {
-  if (first_) return;
-  first_ = tick;
-  if (!has_jumped_back_) newest_ = tick;
+  if (!first_) first_ = tick;
 }
 
 bool CoverWait::hear(Nanoseconds stamp, Nanoseconds now) {

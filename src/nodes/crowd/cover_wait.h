@@ -10,8 +10,8 @@
 
 namespace vegetation_sim {
 
-/// Which cover maps of a meadow a crowd awaits: one of the first tick of each period. One of the
-/// first tick of all is awaited after a jump back only, when meadow and crowd begin together.
+/// Which cover maps of a meadow a crowd awaits: one of its first tick, as if the meadow began with
+/// it, and one of the first tick of each period.
 class CoverWait {
  public:
   /// Time between the tick of a cover map and the tick at which all shards apply it.

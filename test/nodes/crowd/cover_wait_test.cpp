@@ -37,11 +37,15 @@ TEST(CoverWait, TheFirstTickAndThatOfEachPeriodHaveAMap) {
   EXPECT_TRUE(wait.hasMapOf(at(1020)));
 }
 
-TEST(CoverWait, AMeadowThatRunsAlreadyMakesTheMapOfTheNextPeriod) {
+TEST(CoverWait, AMeadowThatRunsAlreadyIsAwaitedInVainOnce) {
   CoverWait wait(2.0, RATE);
   wait.begin(at(1007));
-  EXPECT_TRUE(wait.hasMapOf(at(1019)));
-  EXPECT_FALSE(wait.hasMapOf(at(1020)));
+  EXPECT_FALSE(wait.hasMapOf(at(1007)));
+  EXPECT_TRUE(wait.endWait(false));
+  EXPECT_TRUE(wait.hasMapOf(at(1020)));
+  EXPECT_TRUE(wait.hear(at(1020), at(1021)));
+  EXPECT_TRUE(wait.hasMapOf(at(1034)));
+  EXPECT_FALSE(wait.hasMapOf(at(1035)));
 }
 
 TEST(CoverWait, AMeadowThatHangsIsAwaitedAgainOnceItSends) {

@@ -96,7 +96,7 @@ class CrowdSnapshot(SnapshotCase):
 
     def hash_with_awaited_cover(self, namespace, is_sent, is_killed):
         """Returns the hash of a run in which a cover comes at tick 11, and acts at tick 16."""
-        node = self.start(namespace, 0, checkpoint=is_killed, frame_wait=5.0, cover_rate=0.1,
+        node = self.start(namespace, 0, checkpoint=is_killed, frame_wait=0.5, cover_rate=0.1,
                           checkpoint_period=3600.0 if is_killed else 0.0)
         self.clock.run(10, node.client)
         if is_sent:
