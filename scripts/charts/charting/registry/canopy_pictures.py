@@ -37,7 +37,7 @@ def draw(rows):
 SOURCES = ('src/canopy/layers', 'src/canopy/layer_grid.cpp', 'src/canopy/leaf_motion.cpp',
            'bench/canopy_bench.cpp', 'scenes/canopy')
 ADVICE = ('Choose pictures of 5 layers (default): within about 1 pixel once the eye has '
-          'moved by 1 m, at a seventh of the time of every leaf.')
+          'moved by 1 m, at a fraction of the time of every leaf.')
 CHART = Chart('canopy_pictures', 'error and cost of pictures of layers against every leaf', ADVICE,
               'canopy_bench', {'what': str, 'size': float, 'value': float, 'ratio': float},
               draw, SOURCES,

@@ -35,6 +35,6 @@ def draw(rows):
 SOURCES = ('src/grass/blades', 'src/grass/lod', 'bench/grass_tile_bench.cpp')
 ADVICE = ('Choose the arc of constant length (default), with 5 segments near by and 2 '
           'far away, and leave blades and strips to the tolerance in pixels: strips cost '
-          'a 25th of all blades.')
+          'a small part of all blades.')
 CHART = Chart('grass_ladder', 'error and cost of grass: segments, strips, blades', ADVICE,
               'grass_tile_bench', ladders.COLUMNS, draw, SOURCES)

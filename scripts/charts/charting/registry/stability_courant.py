@@ -27,7 +27,7 @@ def draw(rows):
 
 
 SOURCES = ('src/canopy/flow', 'bench/courant_bench.cpp')
-ADVICE = ('Choose the exact method (default), which is stable everywhere. Verlet costs a '
-          'third of it, but needs a Courant number below 0.7.')
+ADVICE = ('Choose the exact method (default), which is stable everywhere. Verlet costs '
+          'less, but needs a Courant number below 0.7.')
 CHART = Chart('stability_courant', "growth of waves in a leaf field over Courant's number", ADVICE,
               'courant_bench', COLUMNS, draw, SOURCES)
