@@ -193,9 +193,26 @@ struct PredictionCounts {
   }
 };
 
+void addRow(Table& table, const std::string& scenario, std::uint32_t tree,
+            const std::vector<Prediction::Look>& looks) {
+  double predicted = 0.0, measured = 0.0;
+  for (const Prediction::Look& look : looks) {
+    predicted = std::max(predicted, look.predicted);
+    measured = std::max(measured, look.measured);
+  }
+  const int tier = looks.back().tier;
+  table.row(scenario, tree,
+            tier == MODAL_LEVEL       ? "modes"
+            : tier == FINE_MODAL_TIER ? "fine modes"
+                                      : "procedural",
+            predicted, measured);
+}
+
 /// Compares the largest error of each tree over some seconds, predicted and measured against the
-/// full chain.
+/// full chain. The table has them for trees after the longer time of settling.
 void measurePrediction(const Options& options) {
+  Table table(options.parts.size() == 1 ? options.csv : "",
+              "scenario,tree,model,predicted,measured");
   std::printf(
       "\n| scenario | begun after s | trees that move | in modes | in fine ones | predicted within "
       "2 x | worst ratios | samples within the tolerance | above it: predicted | not predicted "
@@ -205,12 +222,14 @@ void measurePrediction(const Options& options) {
     const bench::Scene scene = loadScene(name);
     if (!scene.forest) continue;
     for (const double settle : {0.5, 10.0}) {
+      if (options.quick && settle < 1.0) continue;
       Prediction prediction(*scene.forest, scene.terrain, scene.wind, frameViewpoint(scene),
                             FRAME_START, settle);
       PredictionCounts counts;
       for (const auto& [tree, each] : prediction.look(options.quick ? 3 : 10)) {
         counts.add(each);
         all.add(each);
+        if (settle > 1.0) addRow(table, name, tree, each);
       }
       if (counts.trees > 0) counts.print(name, settle);
     }

@@ -12,10 +12,10 @@ namespace vegetation_sim::forest {
 /// The trees of a scenario, tick by tick and picture by picture. In `grab` a branch is pulled.
 class ForestFrame {
  public:
-  explicit ForestFrame(const bench::Scene& scene)
+  explicit ForestFrame(const bench::Scene& scene, const Settings& settings = {})
       : wind_(scene.wind),
-        held_(*scene.forest, scene.terrain, Settings()),
-        free_(*scene.forest, scene.terrain, Settings()) {
+        held_(*scene.forest, scene.terrain, settings),
+        free_(*scene.forest, scene.terrain, settings) {
     viewer_ = bench::frameViewpoint(scene);
     for (Forest* forest : {&held_, &free_}) {
       forest->setPhysics(scene.physics);

@@ -12,11 +12,11 @@ namespace vegetation_sim::grass {
 /// The grass of a scenario: a stone rolls through it, and everything in view is drawn again.
 class MeadowFrame {
  public:
-  explicit MeadowFrame(const bench::Scene& scene)
+  explicit MeadowFrame(const bench::Scene& scene, const MeadowSettings& settings = {})
       : wind_(scene.wind),
         tread_(scene.grass->layout.tread),
         viewer_(bench::frameViewpoint(scene)),
-        meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, MeadowSettings()),
+        meadow_(scene.grass->layout.map, scene.terrain, scene.grass->layout.seed, settings),
         treads_(scene.grass->layout.map->law(), scene.grass->treading) {
     viewer_.position.z() -= 1.4;  // height of a walking person
     for (int i = 0; i < 2 * bench::FRAME_RATE; ++i) {
@@ -43,6 +43,9 @@ class MeadowFrame {
     draw(views, air, stamp);
     laps.lap("blades and strips");
   }
+
+  /// Returns the largest omission of the models of visible tiles [pixel].
+  double omission() const { return meadow_.balance().largest; }
 
  private:
   void draw(const std::vector<TileView>& views, const NodeWind& air, Nanoseconds stamp) {

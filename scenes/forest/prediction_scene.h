@@ -12,27 +12,31 @@
 namespace vegetation_sim::forest {
 
 /// Predicted errors of the chosen tiers of a forest against measured ones, relative to the full
-/// chain.
+/// chain, with one or several settings.
 class Prediction {
  public:
   static constexpr int RATE = 30;    ///< ticks [Hz]
   static constexpr int WARM_UP = 5;  ///< until modes are computed and the transition is over [s]
-  static constexpr double LEAST = 0.05;  ///< trees that move less are not measured [pixel]
+  static constexpr double LEAST = 0.05;     ///< trees that move less are not measured [pixel]
+  static constexpr std::size_t MOST = 256;  ///< trees that are measured; more pushes are refused
 
   Prediction(const Layout& layout, std::shared_ptr<const terrain::HeightMap> terrain,
              const wind::Field& wind, const Viewpoint& eye, Nanoseconds start, double settle = 0.5,
-             const Settings& settings = {})
-      : chosen_(layout, terrain, settings), exact_(layout, terrain, settings) {
+             const std::vector<Settings>& settings = {Settings()})
+      : exact_(layout, terrain, settings.at(0)) {
+    for (const Settings& each : settings)
+      chosen_.push_back(std::make_unique<Forest>(layout, terrain, each));
     eye_ = eye;
     PhysicsSettings whole;
     whole.promotion = Promotion::DEPTH;
     whole.most_branches = 1000000;
     exact_.setPhysics(whole);
-    for (Forest* forest : {&chosen_, &exact_}) forest->setWind(wind);
+    exact_.setWind(wind);
+    for (const auto& forest : chosen_) forest->setWind(wind);
     tick_ = grid_.tickAt(start);
     run(static_cast<int>(settle * RATE));  // trees that move by then are measured
-    for (const Plant& plant : chosen_.viewChoice().plants())
-      if (plant.error[0] > LEAST) makeWhole(plant.id);
+    for (const Plant& plant : chosen_[0]->viewChoice().plants())
+      if (plant.error[0] > LEAST && trees_.size() < MOST) makeWhole(plant.id);
     run(WARM_UP * RATE);
   }
 
@@ -43,15 +47,20 @@ class Prediction {
   };
   using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by moving tree
 
-  /// Measures at every tick for some seconds.
-  Looks look(int seconds) {
-    Looks out;
+  /// Measures at every tick for some seconds, with the first of the settings.
+  Looks look(int seconds) { return lookWithAll(seconds)[0]; }
+  /// Does so with each of the settings.
+  std::vector<Looks> lookWithAll(int seconds) {
+    std::vector<Looks> out(chosen_.size());
     for (int i = 0; i < RATE * seconds; ++i) {
       run(1);
-      for (const Plant& plant : chosen_.viewChoice().plants())
-        if (trees_.count(plant.id))
-          out[plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
-                                   measured(plant.id), plant.chosen});
+      const PosesById right = poseExact();
+      for (std::size_t k = 0; k < chosen_.size(); ++k)
+        for (const Plant& plant : chosen_[k]->viewChoice().plants())
+          if (trees_.count(plant.id))
+            out[k][plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
+                                        measured(*chosen_[k], plant.id, right.at(plant.id)),
+                                        plant.chosen});
     }
     return out;
   }
@@ -67,6 +76,8 @@ class Prediction {
   }
 
  private:
+  using PosesById = std::map<std::uint32_t, std::vector<Pose>>;
+
   // Makes all joints physical, under the wind alone.
   void makeWhole(std::uint32_t id) {
     const Tree& tree =
@@ -78,15 +89,22 @@ class Prediction {
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_) {
-      chosen_.setViewers({eye_});
-      for (Forest* forest : {&chosen_, &exact_}) forest->advance(grid_.timeOf(tick_));
+      exact_.advance(grid_.timeOf(tick_));
+      for (const auto& forest : chosen_) {
+        forest->setViewers({eye_});
+        forest->advance(grid_.timeOf(tick_));
+      }
     }
   }
+  PosesById poseExact() const {
+    PosesById out;
+    for (const auto& [id, tree] : trees_) out[id] = exact_.pose(tree, id, exact_.snapshot().stamp);
+    return out;
+  }
   // Returns the largest distance of any tip of a tree from the full chain.
-  double measured(std::uint32_t id) const {
+  double measured(const Forest& chosen, std::uint32_t id, const std::vector<Pose>& right) const {
     const Tree& tree = trees_.at(id);
-    const Nanoseconds stamp = chosen_.snapshot().stamp;
-    const auto right = exact_.pose(tree, id, stamp), shown = chosen_.poseInView(tree, id, stamp);
+    const auto shown = chosen.poseInView(tree, id, chosen.snapshot().stamp);
     double out = 0.0;
     for (std::size_t b = 0; b < right.size(); ++b) {
       const Branch& branch = tree.skeleton.branches[b];
@@ -98,7 +116,8 @@ class Prediction {
     return out;
   }
 
-  Forest chosen_, exact_;
+  std::vector<std::unique_ptr<Forest>> chosen_;  // by settings
+  Forest exact_;
   Viewpoint eye_;
   TickGrid grid_{RATE};
   std::int64_t tick_{0};

@@ -97,7 +97,7 @@ void ModalForest::refine(const wind::Field& wind, ModalTreeState fine,
   physics::ModalState state{published(modal_state.state().amplitude),
                             published(modal_state.state().rate)};
   std::vector<double> force;
-  fine.addLeverForces(load, state.amplitude, force);
+  fine.addLeverForces(load, state, force);
   for (std::size_t m = 0; m < force.size(); ++m) {
     const double frequency = fine.modes().modes().frequency[m];
     if (frequency < QUICK) continue;

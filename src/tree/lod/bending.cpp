@@ -59,11 +59,12 @@ std::vector<JointAngles> balance(const TreeModels& tiers, const wind::Instant& a
 // Does the same for a modal tree.
 std::vector<JointAngles> balance(const ModalTree& tree, const wind::Instant& air) {
   ModalAir kept;
-  std::vector<double> rest, force, amplitude(tree.size(), 0.0);
+  const std::vector<double> still(tree.size(), 0.0);
+  std::vector<double> rest, force, amplitude = still;
   tree.loadOf(air, kept, rest);
   for (int round = 0; round < ROUNDS; ++round) {
     force = rest;
-    tree.bendLevers(tree.airOn(air), amplitude, kept, force);
+    tree.bendLevers(tree.leverAir(tree.airOn(air), still), amplitude, kept, force);
     for (std::size_t m = 0; m < tree.size(); ++m) {
       const double w = tree.modes().frequency[m];
       amplitude[m] += 0.5 * (force[m] / (w * w) - amplitude[m]);

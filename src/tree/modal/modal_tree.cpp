@@ -66,6 +66,7 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
   std::vector<WindLoadPoint> load_points =
       windLoadPoints(tree.skeleton, woodOf(tree.skeleton, species, Material::BEAM));
   modes_ = modesIn(links, chain, load_points, depth);
+  joints_ = modes_.damping;
   Motions motions(size());
   for (std::size_t m = 0; m < size(); ++m) {
     chain.motionOf(modes_.shapeOf(m), motions[m]);
@@ -84,7 +85,7 @@ ModalTree::ModalTree(const Tree& tree, const Species& species, ModalDepth depth)
 }
 
 std::size_t ModalTree::bytes() const {
-  std::size_t numbers = stiffness_.size() + uniform_.size() + levers_.size();
+  std::size_t numbers = stiffness_.size() + joints_.size() + uniform_.size() + levers_.size();
   for (const WindPoints* points : {&coarse_, &fine_})
     numbers += points->push.size() + 4 * points->at.size();
   return sizeof(*this) + modes_.bytes() + sizeof(double) * numbers +
@@ -152,7 +153,7 @@ void ModalTree::loadOf(const wind::Instant& wind, ModalAir& air, std::vector<dou
 }
 
 Vec3 ModalTree::airOn(const wind::Instant& wind) const {
-  return effectiveVelocity(wind.velocity(foot_ + middle_), drag_, reference_speed_);
+  return wind.velocity(foot_ + middle_);
 }
 
 void ModalTree::bendLevers(const Vec3& velocity, const std::vector<double>& amplitude,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dynamics/modes/coupled_motion.h"
 #include "vegetation_sim/core/config/faults.h"
 
 namespace vegetation_sim::forest {
@@ -23,24 +24,31 @@ ModalTreeState::ModalTreeState(std::shared_ptr<const ModalTree> modes)
       batch_(std::make_shared<const physics::BatchModes>(modes_->modes())),
       stepper_(modes_->modes()),
       state_(stepper_.atRest()),
-      before_(state_) {}
+      before_(state_),
+      square_(squaresOf(modes_->modes())) {}
 
 void ModalTreeState::loadOf(const wind::Instant& wind, ModalLoad& out) {
   modes_->loadOf(wind, air_, out.force);
   out.air = modes_->airOn(wind);
+  if (modes_->hasQuadraticDrag()) out.velocity = modes_->velocitiesOf(air_);
 }
 
-void ModalTreeState::addLeverForces(const ModalLoad& load, const std::vector<double>& amplitude,
+void ModalTreeState::addLeverForces(const ModalLoad& load, const physics::ModalState& state,
                                     std::vector<double>& out) {
   out = load.force;
-  modes_->bendLevers(load.air, amplitude, air_, out);
+  modes_->bendLevers(modes_->leverAir(load.air, state.rate), state.amplitude, air_, out);
 }
 
 // Accelerations depend on the state alone, so that replicas that receive it extrapolate with the
 // same bits.
 void ModalTreeState::finishStep(const ModalLoad& load, Nanoseconds stamp) {
-  addLeverForces(load, state_.amplitude, after_load_);
-  stepper_.accelerations(state_, after_load_, acceleration_);
+  addLeverForces(load, state_, after_load_);
+  if (modes_->hasQuadraticDrag()) {
+    modes_->dampingIn(load.velocity, state_.rate, damping_);
+    coupledAccelerations(square_, damping_, state_, after_load_, acceleration_);
+  } else {
+    stepper_.accelerations(state_, after_load_, acceleration_);
+  }
   stamp_ = stamp;
 }
 
@@ -71,22 +79,41 @@ void ModalTreeState::restore(const physics::ModalState& state, const ModalLoad& 
   finishStep(load, stamp);
 }
 
-// Lever arms rotate by the bends at the end of a trial step.
+// Lever arms rotate by the bends at the end of a trial step, and quadratic drag damps by the
+// velocity relative to the wood in the middle.
+void ModalTreeState::stepOnce(const ModalLoad& from, const ModalLoad& to, double h) {
+  const bool coupled = modes_->hasQuadraticDrag();
+  const auto advance = [&](physics::ModalState& state) {
+    if (coupled)
+      stepCoupled(square_, damping_, before_load_, after_load_, h, state);
+    else
+      stepper_.step(before_load_, after_load_, h, state);
+  };
+  addLeverForces(from, state_, before_load_);
+  trial_ = state_;
+  after_load_ = before_load_;
+  for (std::size_t m = 0; m < after_load_.size(); ++m)
+    after_load_[m] += to.force[m] - from.force[m];
+  if (coupled) modes_->dampingIn(from.velocity, state_.rate, damping_);
+  advance(trial_);
+  addLeverForces(to, trial_, after_load_);
+  if (coupled) {
+    std::vector<Vec3> velocity = from.velocity;
+    std::vector<double> rate = state_.rate;
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+      velocity[i] = 0.5 * (velocity[i] + to.velocity[i]);
+    for (std::size_t m = 0; m < rate.size(); ++m) rate[m] = 0.5 * (rate[m] + trial_.rate[m]);
+    modes_->dampingIn(velocity, rate, damping_);
+  }
+  advance(state_);
+}
+
 void ModalTreeState::step(const std::vector<ModalLoad>& loads, Nanoseconds stamp) {
   before_ = state_;
   before_stamp_ = stamp_;
   const auto steps = static_cast<Nanoseconds>(loads.size()) - 1;
   const double h = wholeMicroseconds((stamp - stamp_) / steps);
-  for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
-    addLeverForces(loads[i], state_.amplitude, before_load_);
-    trial_ = state_;
-    after_load_ = before_load_;
-    for (std::size_t m = 0; m < after_load_.size(); ++m)
-      after_load_[m] += loads[i + 1].force[m] - loads[i].force[m];
-    stepper_.step(before_load_, after_load_, h, trial_);
-    addLeverForces(loads[i + 1], trial_.amplitude, after_load_);
-    stepper_.step(before_load_, after_load_, h, state_);
-  }
+  for (std::size_t i = 0; i + 1 < loads.size(); ++i) stepOnce(loads[i], loads[i + 1], h);
   finishStep(loads.back(), stamp);
 }
 

@@ -111,5 +111,35 @@ TEST(Prediction, KnowsThatGustsBendWhatSwings) {
   EXPECT_EQ(shareWithinTwo(looks), 1.0);
 }
 
+// N11, N13: in water, quadratic drag damps by the relative velocity and couples the modes. With the
+// damping of each mode alone, tips are 27 to 36 pixels from the full chain.
+TEST(Prediction, ModesFollowTheFullChainInWater) {
+  Layout layout;
+  layout.motion.drag = Drag::QUADRATIC;
+  layout.species = {shippedSpecies("giant_kelp")};
+  for (int i = 0; i < 3; ++i) {
+    TreeSeed kelp;
+    kelp.seed = 30 + static_cast<std::uint64_t>(i);
+    kelp.position = Vec3(4.0 * i - 4.0, 0.0, 0.0);
+    layout.trees.push_back(kelp);
+  }
+  wind::Primitive current = makeBreeze(1, Vec3(0.05, 0.22, 0.0));
+  current.turbulence = 0.5;
+  current.length_scale = 3.0;
+  wind::Primitive swell = makeDisk(2, Vec3::Zero(), 40.0, Vec3(0.1, 0.5, 0.0));
+  swell.omega = 0.9;
+  Prediction scene(layout, flatTerrain(), wind::Field({current, swell}, 6), eyeBefore(25.0),
+                   PREDICTION_START);
+  const Prediction::Looks looks = scene.look(6);
+  ASSERT_EQ(looks.size(), 3u);
+  for (const auto& [tree, each] : looks) {
+    EXPECT_GE(each.back().tier, MODAL_LEVEL) << tree;
+    double worst = 0.0;
+    for (const Prediction::Look& look : each) worst = std::max(worst, look.measured);
+    std::printf("kelp %u: %.1f pixels\n", tree, worst);
+    EXPECT_LT(worst, 22.0) << tree;
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest

@@ -60,7 +60,8 @@ class ModalTree {
   /// @throws InvalidInput for a tree of another joint model.
   ModalTree(const Tree& tree, const Species& species, ModalDepth depth = {});
 
-  /// Load-dependent vectors follow the modes; damping is that of joints and air.
+  /// Load-dependent vectors follow the modes; damping is that of joints and of still air, with
+  /// quadratic drag at the reference speed.
   const physics::Modes& modes() const { return modes_; }
   const physics::RotationProbe& probe() const { return probe_; }
   std::size_t size() const { return modes_.size(); }
@@ -70,10 +71,20 @@ class ModalTree {
   /// and other winds at the coarse points; with quadratic drag, all act there. `air` belongs to
   /// this tree.
   void loadOf(const wind::Instant& wind, ModalAir& air, std::vector<double>& out) const;
-  /// Returns the wind at the middle of the crown, which acts on the lever arms as the tree bends
-  /// [m/s].
+  bool hasQuadraticDrag() const { return drag_ == Drag::QUADRATIC; }
+  /// Returns the velocity of the wind at each coarse point as of the last loadOf() [m/s].
+  std::vector<Vec3> velocitiesOf(const ModalAir& air) const;
+  /// Computes the damping [modes][modes] with quadratic drag, symmetric, in the wind of these
+  /// velocities at the coarse points, for amplitudes that change at `rate` [1/s]. With the load of
+  /// the wind on wood at rest it gives the drag of the relative velocity.
+  void dampingIn(const std::vector<Vec3>& velocity, const std::vector<double>& rate,
+                 std::vector<double>& out) const;
+  /// Returns the wind at the middle of the crown [m/s].
   Vec3 airOn(const wind::Instant& wind) const;
-  /// Adds the first-order change of modal loads by bending, in a wind whose airOn() is `velocity`.
+  /// Returns the velocity that acts on the lever arms as the tree bends, of a wind with this
+  /// airOn(). With quadratic drag it is relative to wood whose amplitudes change at `rate`.
+  Vec3 leverAir(const Vec3& air, const std::vector<double>& rate) const;
+  /// Adds the first-order change of modal loads by bending, for a leverAir() of `velocity`.
   /// Bends beyond MODAL_LIMIT count as that limit; otherwise the load of a storm would grow with
   /// the bend that it causes.
   void bendLevers(const Vec3& velocity, const std::vector<double>& amplitude, ModalAir& air,
@@ -98,6 +109,7 @@ class ModalTree {
   std::vector<double> levers_;     // [modes][3][row] its change per amplitude
   Vec3 middle_{Vec3::Zero()};      // centre of all drag at rest, tree's frame [m]
   std::vector<double> stiffness_;  // [branches][2]
+  std::vector<double> joints_;     // [modes] damping by joints alone
 };
 
 /// Returns the bends within the limits of joints (E16): exact up to the knee.

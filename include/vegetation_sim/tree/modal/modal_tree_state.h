@@ -19,7 +19,9 @@ namespace vegetation_sim::forest {
 /// Wind load of a modal tree at one moment.
 struct ModalLoad {
   std::vector<double> force;  ///< [modes] modal forces on the tree at rest
-  Vec3 air{Vec3::Zero()};     ///< ModalTree::airOn(), which acts on the lever arms [m/s]
+  Vec3 air{Vec3::Zero()};     ///< ModalTree::airOn() [m/s]
+  /// Velocities of the wind at the coarse points, for quadratic drag only [m/s].
+  std::vector<Vec3> velocity;
 };
 
 /// Amplitudes of all modes with their first and second derivatives in time.
@@ -43,7 +45,7 @@ class ModalTreeState {
 
   void loadOf(const wind::Instant& wind, ModalLoad& out);
   /// Computes the modal forces [modes] of a load on the bent tree.
-  void addLeverForces(const ModalLoad& load, const std::vector<double>& amplitude,
+  void addLeverForces(const ModalLoad& load, const physics::ModalState& state,
                       std::vector<double>& out);
   /// Starts at the procedural motion under the loads `step` seconds before the stamp, at the stamp
   /// and after it.
@@ -65,6 +67,7 @@ class ModalTreeState {
   void interpolateMotion(Nanoseconds stamp, ModalMotion& out) const;
 
  private:
+  void stepOnce(const ModalLoad& from, const ModalLoad& to, double h);
   void finishStep(const ModalLoad& load, Nanoseconds stamp);
 
   std::shared_ptr<const ModalTree> modes_;
@@ -75,6 +78,7 @@ class ModalTreeState {
   ModalAir air_;               // cache that follows from the wind
   physics::ModalState trial_;  // scratch
   std::vector<double> before_load_, after_load_;
+  std::vector<double> square_, damping_;  // for quadratic drag: w^2, and scratch
   Nanoseconds stamp_{0}, before_stamp_{0};
 };
 
