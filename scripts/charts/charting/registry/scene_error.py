@@ -15,7 +15,7 @@ def draw(rows):
         own = groups([row for row in rows if row.part == part], 'scenario')
         for number, (scenario, points) in enumerate(own.items()):
             points = sorted(points, key=lambda row: row.tolerance)
-            axes.loglog([row.ms for row in points], [max(row.error, 1e-2) for row in points], '-',
+            axes.loglog([row.ms for row in points], [max(row.error, 1e-2) for row in points],
                         marker=style.MARKERS[number % len(style.MARKERS)],
                         color=style.COLOURS[number % len(style.COLOURS)],
                         linestyle='-' if number < len(style.COLOURS) else '--', label=scenario)
