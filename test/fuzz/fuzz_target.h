@@ -50,7 +50,10 @@ class Numbers {
   explicit Numbers(std::string_view bytes) : bytes_(bytes) {}
   bool empty() const { return bytes_.empty(); }
   std::uint8_t byte();
-  std::uint16_t word() { return static_cast<std::uint16_t>(byte() | byte() << 8); }
+  std::uint16_t word() {
+    const int low = byte();  // first, which an expression of both calls would not guarantee
+    return static_cast<std::uint16_t>(low | byte() << 8);
+  }
   /// Any double, NaN and infinity included.
   double real();
   /// One of 65536 values in equal steps.

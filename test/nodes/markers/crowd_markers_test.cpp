@@ -65,8 +65,9 @@ TEST(CrowdMarkers, BodiesHaveTheirStyles) {
   const auto reach = [&](const crowd::MotionStyles& styles) {
     CrowdMarkers markers(row.crowd, 60000, 1.0, styles);
     markers.build({row.viewer}, 0);
+    const visualization_msgs::MarkerArray message = markers.lists().message("map");
     double out = 0.0;  // [m] to the north
-    for (const geometry_msgs::Point& point : markers.lists().message("map").markers[0].points)
+    for (const geometry_msgs::Point& point : message.markers[0].points)
       out = std::max(out, point.y);
     return out;
   };
