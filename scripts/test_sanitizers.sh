@@ -28,7 +28,7 @@ run_test() {
   local name=$1 start=$SECONDS count result=passed
   shift
   rm -rf "$reports" && mkdir -p "$reports"
-  "$@" >"$folder/$name.log" 2>&1 || result='failed, see its log'
+  "$@" </dev/null >"$folder/$name.log" 2>&1 || result='failed, see its log'
   ! grep -qE 'FAILURES: [1-9]|ERRORS: [1-9]|RESULT: FAIL' "$folder/$name.log" || result='failed, see its log'
   count=$(cat "$reports"/* 2>/dev/null | grep -cE 'ERROR: AddressSanitizer|runtime error:|WARNING: ThreadSanitizer' || true)
   [ "$count" -eq 0 ] || cp -r "$reports" "$folder/reports_$name"
