@@ -19,14 +19,25 @@ struct TreeSteps::Run {
   SubtreeScratch& scratch;
 };
 
+StepTimes TreeSteps::timesIn(const TickContext& tick) const {
+  StepTimes out = tick.times;
+  const bool is_free = grabs_.empty() && pushes_.empty() && !contacts_;
+  if (is_free && tick.settings.dynamics == physics::Dynamics::ARTICULATED &&
+      tick.settings.integrator == physics::Integrator::MIDPOINT &&
+      secondsBetween(subtree_->lastNeeded(), out.from) >= CALM_AFTER)
+    out.count = (out.count + CALM_STEPS - 1) / CALM_STEPS;
+  return out;
+}
+
 void TreeSteps::run(const TickContext& tick, SubtreeScratch& scratch) {
-  const StepTimes& times = tick.times;
+  times_ = timesIn(tick);
+  air_steps_ = times_.count < tick.times.count ? 1 : AIR_STEPS;
   const Run run{tick, tick.forest.windOf(tree_), scratch};
-  collectSprings(times);
-  accumulateImpulses(run.air, run.scratch, times.from, times.from);
-  for (std::size_t k = 0; k < times.count; ++k) step(run, k);
-  recordGrabs(secondsBetween(times.from, times.to));
-  subtree_->demote(run.air, times.to, tick.settings, scratch);
+  collectSprings(times_);
+  accumulateImpulses(run.air, run.scratch, times_.from, times_.from);
+  for (std::size_t k = 0; k < times_.count; ++k) step(run, k);
+  recordGrabs(secondsBetween(times_.from, times_.to));
+  subtree_->demote(run.air, times_.to, tick.settings, scratch);
 }
 
 // Forces are means over a step, so that each push has its whole impulse.
@@ -42,12 +53,11 @@ void TreeSteps::setPushes(Nanoseconds from, Nanoseconds to) {
 
 // Step number k.
 void TreeSteps::step(const Run& run, std::size_t k) {
-  const StepTimes& times = run.tick.times;
-  const Nanoseconds from = times.at(k), to = times.at(k + 1);
+  const Nanoseconds from = times_.at(k), to = times_.at(k + 1);
   setPushes(from, to);
   if (contacts_) return stepNearBodies(run, k);
-  const std::size_t first = k - k % AIR_STEPS, last = std::min(first + AIR_STEPS, times.count);
-  loads_.air = (times.at(first) + times.at(last)) / 2;
+  const std::size_t first = k - k % air_steps_, last = std::min(first + air_steps_, times_.count);
+  loads_.air = (times_.at(first) + times_.at(last)) / 2;
   loads_.hold = k != first;
   subtree_->step(run.air, loads_, run.tick.settings, from, to, run.scratch);
   accumulateImpulses(run.air, run.scratch, from, to);
@@ -57,7 +67,7 @@ void TreeSteps::step(const Run& run, std::size_t k) {
 
 void TreeSteps::stepNearBodies(const Run& run, std::size_t k) {
   SubtreeScratch& scratch = run.scratch;
-  const Nanoseconds from = run.tick.times.at(k), to = run.tick.times.at(k + 1);
+  const Nanoseconds from = times_.at(k), to = times_.at(k + 1);
   const ContactTree tree{tree_, subtree_->tree().foot, subtree_->branches(),
                          subtree_->tree().skeleton, scratch.start};
   subtree_->kinematicsAt(run.air, from, scratch, scratch.start);
@@ -79,7 +89,6 @@ void TreeSteps::substep(const Run& run, const ContactTree& tree, std::size_t k, 
   const StepContext& forest = run.tick.forest;
   const PhysicsSettings& settings = run.tick.settings;
   const Bodies& bodies = run.tick.bodies;
-  const StepTimes& times = run.tick.times;
   SubtreeScratch& scratch = run.scratch;
   const PersistentContacts before = *contacts_;
   std::vector<physics::Contact> contacts =
@@ -102,7 +111,7 @@ void TreeSteps::substep(const Run& run, const ContactTree& tree, std::size_t k, 
   std::vector<Reaction> reactions;
   forest.contacts.recordForces(tree, bodies, contacts, to, *contacts_, reactions);
   const double share =
-      static_cast<double>(to - from) / static_cast<double>(times.at(k + 1) - times.at(k));
+      static_cast<double>(to - from) / static_cast<double>(times_.at(k + 1) - times_.at(k));
   for (Reaction& reaction : reactions) reaction.force *= share;
   accumulateReactions(k, reactions);
 }

@@ -24,6 +24,13 @@ struct TickContext {
   StepTimes times;
 };
 
+/// Number of steps of 240 Hz that a step of a calm tree replaces: 60 Hz.
+constexpr std::size_t CALM_STEPS = 4;
+/// Time after which a tree is calm if nothing holds, pushes or touches it [s]: until then branches
+/// that were released swing too fast for long steps. Steps of 60 Hz leave such a tree within 1 % of
+/// its motion in wind (docs/charts/step_rate.png).
+constexpr double CALM_AFTER = 2.0;
+
 /// A reaction of a contact, and the step in which it began.
 struct StepReaction {
   std::size_t step{0};
@@ -42,6 +49,9 @@ class TreeSteps {
   /// Bodies may touch the tree.
   void setContacts(PersistentContacts& contacts) { contacts_ = &contacts; }
 
+  /// Returns the steps of this tree: those of the tick, or fewer if the tree is calm and its steps
+  /// are linearly implicit ones.
+  StepTimes timesIn(const TickContext& tick) const;
   /// Takes all steps, sums what they did to grabs and bodies, and demotes branches.
   void run(const TickContext& tick, SubtreeScratch& scratch);
 
@@ -72,6 +82,8 @@ class TreeSteps {
   std::vector<HeldGrab*> grabs_;
   std::vector<const Push*> pushes_;
   PersistentContacts* contacts_{nullptr};
+  StepTimes times_;
+  std::size_t air_steps_{1};  ///< that use the wind of one stamp
   SubtreeLoads loads_;
   std::vector<Reaction> grab_reactions_;
   std::vector<StepReaction> contact_reactions_;

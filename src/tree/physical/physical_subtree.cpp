@@ -153,6 +153,12 @@ physics::Link PhysicalSubtree::linkFor(std::size_t link, const Composite& body) 
   return out;
 }
 
+Nanoseconds PhysicalSubtree::lastNeeded() const {
+  Nanoseconds out = 0;
+  for (const SubtreeJoint& joint : joints_) out = std::max({out, joint.needed, joint.promoted});
+  return out;
+}
+
 std::size_t PhysicalSubtree::bytes() const {
   const std::size_t n = mask_.capacity();
   return sizeof(*this) + n + (state_.chain() ? state_.chain()->bytes() : 0) +

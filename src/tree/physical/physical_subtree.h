@@ -79,6 +79,8 @@ class PhysicalSubtree {
   std::size_t blending() const;
   /// Returns the number of physical branches that do not blend back.
   std::size_t holding() const { return joints_.size() - blending(); }
+  /// Returns when a load last needed a joint to be physical, or when one was promoted.
+  Nanoseconds lastNeeded() const;
   std::size_t bytes() const;
   void addTo(Hash& hash) const;
   /// Writes or reads the joints; all else follows from them. @throws InvalidInput for joints that
