@@ -44,15 +44,16 @@ def draw(rows):
                 'thin wood, up to 1 cm of radius, and other wood')
     style.label(rise, 'processor time of a second in one tree [ms]',
                 'largest rise in a substep [N]', 'force on a branch')
-    depth.set_xticks(speeds, ['%g' % speed for speed in speeds])
+    depth.set_xticks(speeds)
+    depth.set_xticklabels(['%g' % speed for speed in speeds])
     depth.minorticks_off()
     style.legend_below(figure, (depth, rise), 3)
     return figure
 
 
 SOURCES = ('src/dynamics', 'src/forest/contact', 'scenes/forest', 'bench/contact_bench.cpp')
-ADVICE = ('Choose parts and halves (default): parts keep thin wood farthest below the bar of 5 mm and '
-          'halves keep forces from jumping, for about twice the time; drive at thin wood only, as a '
-          'body overruns other wood by centimetres at any speed.')
+ADVICE = ('Choose parts and halves (default): parts keep thin wood farthest below the bar of 5 '
+          'mm and halves keep forces from jumping, for about twice the time; drive at thin wood '
+          'only, as a body overruns other wood by centimetres at any speed.')
 CHART = Chart('contact', 'depth and cost of contacts by speed and substeps', ADVICE,
               'contact_bench', COLUMNS, draw, SOURCES, sized('--part', 'substeps'))
