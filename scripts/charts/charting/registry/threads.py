@@ -27,7 +27,7 @@ def draw(rows):
 
 
 SOURCES = ('src/core/threads', 'src/tree/physical', 'src/forest/physics', 'src/crowd',
-           'src/sensors', 'bench/thread_bench.cpp')
+           'src/sensors', 'scenes/forest', 'scenes/sensors', 'bench/thread_bench.cpp')
 ADVICE = ('Choose as many threads for physical trees, crowds and sensors as cores are free '
           '(default 1, since nodes share the cores): results have the same bits.')
 CHART = Chart('threads', 'speed of work on several threads', ADVICE, 'thread_bench', COLUMNS, draw,
