@@ -52,8 +52,8 @@ def draw(rows):
 
 
 SOURCES = ('src/dynamics', 'src/forest/contact', 'scenes/forest', 'bench/contact_bench.cpp')
-ADVICE = ('Choose parts and halves (default): parts keep thin wood farthest below the bar of 5 '
-          'mm and halves keep forces from jumping, for about twice the time; drive at thin wood '
-          'only, as a body overruns other wood by centimetres at any speed.')
+ADVICE = ('Choose parts and halves (default), for more time than whole steps: parts keep fast '
+          'bodies farthest below the bar of 5 mm, halves keep forces from jumping; drive at thin '
+          'wood only, since a body overruns other wood by centimetres at any speed.')
 CHART = Chart('contact', 'depth and cost of contacts by speed and substeps', ADVICE,
               'contact_bench', COLUMNS, draw, SOURCES, sized('--part', 'substeps'))
