@@ -43,8 +43,7 @@ def draw(rows):
 
 
 SOURCES = ('src/grass/tread', 'src/grass/blades', 'bench/tread_bench.cpp')
-ADVICE = ('Choose 5 cm (default), which is off by less than 2 cm; choose 2.5 cm under narrow '
-          'wheels, for about three times the memory, or 12.5 cm under people alone, for about a '
-          'third of it.')
+ADVICE = ('Choose 5 cm (default), which is off by 2 cm at most; choose 2.5 cm under narrow wheels, '
+          'for two to three times the memory, or 12.5 cm under people alone, for a third of it.')
 CHART = Chart('tread_spacing', 'error and cost of the spacing of nodes of trodden ground', ADVICE,
               'tread_bench', COLUMNS, draw, SOURCES)
