@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drives a capsule of 5 cm through crowns that are physical as a whole, where they have most thin
 // wood, and measures how deep wood enters and with which force, for the worst of all drives of a
-// tree and speed. Then measures the wrenches that a forest publishes to a robot at 60 Hz.
-// usage: contact_bench [--quick | --full] [--part depth,published] [--csv FILE]
-// The options choose one, three or all paths through each tree. The file holds the depths.
+// tree and speed. Then measures the wrenches that a forest publishes to a robot at 60 Hz. The part
+// `substeps` compares ways to divide steps near a body: depth, rise of the force, processor time.
+// usage: contact_bench [--quick | --full] [--part depth,published,substeps] [--csv FILE]
+// The options choose one, three or all paths through each tree. The file holds the depths, or what
+// `substeps` measures if that is the only part.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <map>
 
 #include "options.h"
+#include "processor_time.h"
 #include "scenes/forest/contact_scene.h"
 #include "scenes/forest/crown_scene.h"
 #include "table.h"
@@ -25,6 +28,7 @@ constexpr double CLEAR = 0.15;           // distance to any wood where a path be
 constexpr double LANE = 0.1;             // between the paths that are tried [m]
 constexpr double BAND = 0.5;             // height of a band, each with a path [m]
 constexpr double LARGEST_DEPTH = 0.005;  // depth that thin wood must not exceed [m]
+constexpr std::uint64_t SEED = 7;        // of the trees for `substeps`
 
 bool isClear(const Skeleton& skeleton, const Vec3& start) {
   for (const Branch& b : skeleton.branches)
@@ -179,16 +183,70 @@ void benchPublished(std::size_t most) {
     for (std::uint64_t seed = 7; seed < 10; ++seed) drivePublished(species, seed, most);
 }
 
+// ---- substeps ----------------------------------------------------------------------------------
+
+struct NamedRule {
+  const char* name;
+  SubstepRule rule;
+};
+const NamedRule RULES[] = {{"whole steps", {false, false}},
+                           {"by travel", {true, false}},
+                           {"by force", {false, true}},
+                           {"by travel and force", {true, true}}};
+
+/// Returns the processor time of a drive [s].
+double timeOf(const std::string& species, const Way& way, double speed, const SubstepRule& rule) {
+  CrownScene scene(species, SEED);
+  scene.rule = rule;
+  scene.observes = false;
+  const double start = bench::threadTime();
+  scene.drive(way.start, RADIUS, LENGTH, speed, WAY);
+  return bench::threadTime() - start;
+}
+
+void driveBy(const NamedRule& named, const std::string& species, const std::vector<Way>& ways,
+             double speed, bench::Table& table) {
+  Worst worst;
+  for (const Way& way : ways) {
+    CrownScene scene(species, SEED);
+    scene.rule = named.rule;
+    worst.add(scene.drive(way.start, RADIUS, LENGTH, speed, WAY), WAY / speed * PHYSICS_RATE);
+  }
+  const double cost = timeOf(species, ways.at(0), speed, named.rule) * speed / WAY;
+  std::printf("%-7s %4.1f m/s %-20s %7.2f mm %7.1f mm %6.0f N %6.0f N %8.1f ms %5.2f parts\n",
+              species.c_str(), speed, named.name, 1e3 * worst.thin, 1e3 * worst.thick, worst.force,
+              worst.rise, 1e3 * cost, worst.parts);
+  table.row(named.name, species, speed, 1e3 * worst.thin, 1e3 * worst.thick, worst.force,
+            worst.rise, 1e3 * cost, int(named.rule.by_travel && named.rule.by_force));
+}
+
+void benchSubsteps(const bench::Options& options) {
+  bench::Table table(options.parts.size() == 1 ? options.csv : "",
+                     "rule,species,speed,thin_mm,other_mm,force,rise,cost_ms,chosen");
+  std::printf("\nsubsteps: thin and other wood, force, rise in a substep, time of a second\n");
+  const std::vector<double> speeds =
+      options.quick ? std::vector<double>{1.0, 4.0} : std::vector<double>{0.5, 1.0, 2.0, 4.0};
+  for (const std::string& species : speciesNames()) {
+    if (options.quick && species != "oak" && species != "pine") continue;
+    std::vector<Way> ways = busiestWays(CrownScene(species, SEED).skeleton());
+    ways.resize(std::min<std::size_t>(ways.size(), options.full ? 20 : options.quick ? 1 : 2));
+    for (const double speed : speeds)
+      for (const NamedRule& rule : RULES) driveBy(rule, species, ways, speed, table);
+  }
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest
 
 int main(int argc, char** argv) {
   using namespace vegetation_sim;
   try {
-    const bench::Options options = bench::readOptions(argc, argv, {"depth", "published"});
+    const bench::Options options =
+        bench::readOptions(argc, argv, {"depth", "published", "substeps"});
     const std::size_t most = options.full ? 1000 : options.quick ? 1 : 3;
     if (options.wants("depth")) forest::benchDepth(most, options.csv);
     if (options.wants("published")) forest::benchPublished(most);
+    if (options.wants("substeps")) forest::benchSubsteps(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_bench: %s\n", error.what());
     return 1;

@@ -59,6 +59,12 @@ struct CrownResult {
 
 constexpr double THIN = 0.01;  ///< radius [m]
 
+/// How steps near a body are divided; the default is that of a forest.
+struct SubstepRule {
+  bool by_travel{true};  ///< ContactFinder::countSubsteps
+  bool by_force{true};   ///< SubstepBisection
+};
+
 /// A capsule of given radius, crosswise and level, driven through the crown of one tree that is
 /// physical as a whole.
 class CrownScene {
@@ -82,6 +88,8 @@ class CrownScene {
   const Skeleton& skeleton() const { return tree_.skeleton; }
   const physics::Kinematics& kinematics() const { return kinematics_; }
   physics::ContactLaw law;
+  SubstepRule rule;
+  bool observes{true};  ///< without it a drive has no results, as for a measurement of its time
 
   /// Drives the capsule from `from` along x for `way` metres, then removes it.
   CrownResult drive(const Vec3& from, double radius, double length, double speed, double way) {
@@ -90,7 +98,7 @@ class CrownScene {
     body_.velocity = Vec3(speed, 0.0, 0.0);
     CrownResult out;
     const int steps = static_cast<int>(way / speed * PHYSICS_RATE);
-    for (int i = 0; i < steps; ++i) step({{body_.id, body_}}, &out);
+    for (int i = 0; i < steps; ++i) step({{body_.id, body_}}, observes ? &out : nullptr);
     out.touched = static_cast<int>(touched_.size());
     out.trials = contact_steps_ ? out.trials / contact_steps_ : 0.0;
     return out;
@@ -114,7 +122,7 @@ class CrownScene {
   }
   void step(const Bodies& bodies, CrownResult* result) {
     const Nanoseconds from = timeOf(tick_), to = timeOf(++tick_);
-    const int parts = finder_.countSubsteps(contactTree(), bodies, from, to);
+    const int parts = rule.by_travel ? finder_.countSubsteps(contactTree(), bodies, from, to) : 1;
     bisection_ = SubstepBisection();
     for (int k = 0; k < parts; ++k)
       stepPart(bodies, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts,
@@ -129,7 +137,7 @@ class CrownScene {
         finder_.findContacts(contactTree(), bodies, from, to, persistent_);
     theta_ = physics::guardedTheta(state_, h, theta_);
     stepper_.step(links_, {}, law, 0.0, h, theta_, state_, contacts);
-    if (bisection_.bisect(stepper_, law, to - from)) {
+    if (rule.by_force && bisection_.bisect(stepper_, law, to - from)) {
       const Nanoseconds middle = from + (to - from) / 2;
       persistent_ = persistent, state_ = state, theta_ = theta;
       stepPart(bodies, from, middle, result);
