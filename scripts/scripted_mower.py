@@ -21,7 +21,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 RATE = 50.0  # [Hz]
 METRES_PER_NEWTON = 0.01  # Length of the force arrow per newton. [m/N]
 SMOOTHING = 0.3  # Window of the mean that the label and the arrow show. [s]
-RED, LIGHT, DARK = (0.80, 0.05, 0.05, 1.0), (1.0, 1.0, 1.0, 1.0), (0.05, 0.05, 0.05, 1.0)
+RED, WHITE = (0.80, 0.05, 0.05, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 
 class ScriptedMower:
@@ -104,7 +104,7 @@ class ScriptedMower:
     def draw(self, now):
         force = self.force(now)
         if not self.lanes:
-            self.markers.publish(MarkerArray([self.arrow(force), *self.label(force)]))
+            self.markers.publish(MarkerArray([self.arrow(force), self.label(force)]))
             return
         ahead, length, width, height = self.deck
         deck = self.marker(3, Marker.MESH_RESOURCE)
@@ -132,14 +132,10 @@ class ScriptedMower:
         return out
 
     def label(self, force):
-        """Returns a light text, and a dark one that outlines it."""
-        text = '%.0f N' % math.hypot(*force)
-        out = []
-        for number, (y, z) in enumerate([(0.0, 0.0), (0.0, -0.015), (0.0, 0.015)]):
-            one = self.marker(5 + number, Marker.TEXT_VIEW_FACING, *(DARK if number else LIGHT))
-            one.pose.position.x, one.pose.position.y, one.pose.position.z = 0.1, y, 2.6 + z
-            one.scale.z, one.text = 0.26, text
-            out.append(one)
+        out = self.marker(5, Marker.TEXT_VIEW_FACING, *WHITE)
+        out.pose.position.x, out.pose.position.z = 0.1, 2.6
+        out.scale.z = 0.26
+        out.text = '%.0f N' % math.hypot(*force)
         return out
 
 
