@@ -21,7 +21,7 @@ pictures() {
 demo         | demo         | 14 |
 forest       | forest       | 8  | View=Among
 grab_levels  | grab         | 9  |
-push         | push         | 9  | Forest/Leaves=true;Forest/Colours=natural
+push         | push         | 7.8| Forest/Leaves=true;Forest/Colours=natural
 hedge        | hedge        | 9  |
 meadow_robot | meadow_robot | 20 |
 mowing       | mowing       | 50 |

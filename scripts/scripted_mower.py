@@ -5,7 +5,8 @@
 push aside; or lane by lane over a meadow or a field, if ~lanes is above 0.
 
 It is an example of what a robot has to do: broadcast its frame and subscribe to forest/wrenches and
-canopy/contacts. config/robots/mower.urdf has its collision geometry.
+canopy/contacts. config/robots/mower.urdf describes the mower; this node draws its deck and
+the force.
 """
 import math
 from collections import deque
@@ -20,7 +21,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 RATE = 50.0  # [Hz]
 METRES_PER_NEWTON = 0.01  # Length of the force arrow per newton. [m/N]
 SMOOTHING = 0.3  # Window of the mean that the label and the arrow show. [s]
-GREEN, BLACK, STEEL, RED = (0.15, 0.45, 0.18), (0.08, 0.08, 0.08), (0.55, 0.57, 0.60), (0.80, 0.05, 0.05)
+RED, WHITE = (0.80, 0.05, 0.05, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 
 class ScriptedMower:
@@ -102,39 +103,27 @@ class ScriptedMower:
 
     def draw(self, now):
         force = self.force(now)
-        wheels = [self.solid(10 + i, Marker.CYLINDER, (x, y, 0.22), (0.44, 0.44, 0.14), BLACK, True)
-                  for i, (x, y) in enumerate([(-0.4, -0.36), (-0.4, 0.36), (0.4, -0.36), (0.4, 0.36)])]
-        hull = self.solid(0, Marker.CUBE, (0.0, 0.0, 0.4), (1.1, 0.7, 0.5), GREEN)
-        if self.lanes:
-            ahead, length, width, height = self.deck
-            deck = self.solid(3, Marker.CUBE, (ahead, 0.0, height), (length, width, 0.08), STEEL)
-            self.markers.publish(MarkerArray(wheels + [hull, deck]))
+        if not self.lanes:
+            self.markers.publish(MarkerArray([self.arrow(force), self.label(force)]))
             return
-        self.markers.publish(MarkerArray(wheels + [
-            hull,
-            self.solid(1, Marker.CYLINDER, (0.1, 0.0, 1.45), (0.14, 0.14, 1.6), STEEL),
-            self.solid(2, Marker.SPHERE, (0.1, 0.0, 2.25), (0.14, 0.14, 0.14), STEEL),
-            self.arrow(force), self.label(force)]))
+        ahead, length, width, height = self.deck
+        deck = self.marker(3, Marker.MESH_RESOURCE)
+        deck.mesh_resource = 'package://vegetation_sim/media/robots/deck.obj'
+        deck.mesh_use_embedded_materials = True
+        deck.pose.position.x, deck.pose.position.z = ahead, height
+        deck.scale.x, deck.scale.y, deck.scale.z = length, width, 0.08
+        self.markers.publish(MarkerArray([deck]))
 
-    def marker(self, number, kind, colour):
+    def marker(self, number, kind, *colour):
         out = Marker(ns='mower', id=number, type=kind, action=Marker.ADD)
         out.header.frame_id, out.frame_locked = self.frame, True
         out.pose.orientation.w = 1.0
-        out.color = ColorRGBA(*colour, 1.0)
+        out.color = ColorRGBA(*colour)
         out.lifetime = rospy.Duration(1.0)
         return out
 
-    def solid(self, number, kind, offset, size, colour, lying=False):
-        out = self.marker(number, kind, colour)
-        at, turn = out.pose.position, out.pose.orientation
-        at.x, at.y, at.z = offset
-        if lying:
-            turn.x = turn.w = math.sqrt(0.5)
-        out.scale.x, out.scale.y, out.scale.z = size
-        return out
-
     def arrow(self, force):
-        out = self.marker(4, Marker.ARROW, RED)
+        out = self.marker(4, Marker.ARROW, *RED)
         if math.hypot(*force) * METRES_PER_NEWTON < 0.05:
             out.action = Marker.DELETE
         out.scale.x, out.scale.y, out.scale.z = 0.05, 0.11, 0.16
@@ -143,7 +132,7 @@ class ScriptedMower:
         return out
 
     def label(self, force):
-        out = self.marker(5, Marker.TEXT_VIEW_FACING, (0.05, 0.05, 0.05))
+        out = self.marker(5, Marker.TEXT_VIEW_FACING, *WHITE)
         out.pose.position.x, out.pose.position.z = 0.1, 2.6
         out.scale.z = 0.26
         out.text = '%.0f N' % math.hypot(*force)

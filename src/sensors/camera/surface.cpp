@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grass/mesh/grass_geometry.h"
+#include "sensors/camera/person_colour.h"
 #include "sensors/camera/texture.h"
 #include "vegetation_sim/core/math/math.h"
 
@@ -203,8 +204,10 @@ Surface Surfaces::personAt(const Vec3& place, const Hit& hit) const {
   const Rod& rod = scene_.people.rods()[person.first_limb + limb];
   Surface out;
   out.normal = normalOf(rod, place);
-  const bool hair = limb == static_cast<std::size_t>(crowd::Part::HEAD) && out.normal.z() > 0.25;
-  const Vec3& colour = hair ? person.clothes.hair : crowd::colourOf(person.clothes, limb);
+  const Rod& shoulders =
+      scene_.people.rods()[person.first_limb + static_cast<std::size_t>(crowd::Part::SHOULDERS)];
+  const double along = dot(place - rod.base, rod.axis) / std::max(rod.length, 1e-6);
+  const Vec3 colour = personColour(person.clothes, {limb, along, out.normal, frontOf(shoulders)});
   const Vec3 own = 60.0 * (place - rod.base);
   out.albedo = linearOf(colour) * (0.85 + 0.3 * smoothNoise(own, CLOTH_KEY + hit.plant));
   return out;
