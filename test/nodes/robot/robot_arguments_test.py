@@ -2,7 +2,9 @@
 # Copyright 2026 vegetation_sim developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A wrong argument of robot.launch is refused with an error that names it, or the parameter which
-follows from it, and the value."""
+follows from it, and the value. demo.launch gives it the frames and bodies of its robots."""
+from xml.etree import ElementTree
+
 import roslaunch.config
 import roslaunch.xmlloader
 import roslib.packages
@@ -11,14 +13,23 @@ import rostest
 
 from refusing_node import RefusingNode
 
-LAUNCH_FILE = roslib.packages.get_pkg_dir('vegetation_sim') + '/launch/robot.launch'
+LAUNCH_FILES = roslib.packages.get_pkg_dir('vegetation_sim') + '/launch/'
+
+
+def load(file, arguments):
+    """Returns what a launch file would start."""
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader().load(LAUNCH_FILES + file, config, verbose=False,
+                                         argv=['%s:=%s' % pair for pair in arguments.items()])
+    return config
 
 
 def parameters_of(node, arguments):
     """Returns the parameters of a node that robot.launch sets, as a tree."""
-    config = roslaunch.config.ROSLaunchConfig()
-    roslaunch.xmlloader.XmlLoader().load(LAUNCH_FILE, config, verbose=False,
-                                         argv=['%s:=%s' % pair for pair in arguments.items()])
+    return tree_of(node, load('robot.launch', arguments))
+
+
+def tree_of(node, config):
     tree = {}
     for name, parameter in config.params.items():
         if name.startswith('/%s/' % node):
@@ -128,6 +139,31 @@ class RobotArguments(RefusingNode):
             parameters = parameters_of(node, {'robot': 'a', 'prefix': 'a/', 'robot_description': 'urdf'})
             self.assertEqual(parameters['bodies'], {'a': [{'robot_description': 'urdf', 'prefix': 'a/'}]})
             self.assertNotIn('bodies', parameters_of(node, {}))
+
+    # N3: trees, plants, grass and people meet the robots of the demos, which have these frames.
+    def test_the_robots_of_the_demos_are_connected(self):
+        for scenario in 'crowd', 'demo', 'hills', 'meadow_robot', 'push', 'hedge', 'harvest':
+            with self.subTest(scenario=scenario):
+                self.check_demo(scenario, load('demo.launch', {'scenario': scenario, 'rviz': 'false'}))
+
+    def check_demo(self, scenario, config):
+        robot = ElementTree.fromstring(config.params['/robot_description'].value)
+        self.assertTrue(robot.findall('link/collision'))
+        frames = {link.get('name') for link in robot.findall('link')}
+        for node in 'forest_animator', 'canopy_animator':
+            self.assertEqual(tree_of(node, config).get('bodies'),
+                             {'robot': [{'robot_description': 'robot_description', 'prefix': ''}]})
+        sources = tree_of('grass_field', config)['sources']['robot']
+        self.assertLessEqual({source['frame'] for source in sources}, frames)
+        body, = tree_of('agent_crowd', config)['robots']['robot']
+        self.assertIn(body['frame'], frames)
+        cuts = scenario == 'harvest'
+        for node in 'grass_field', 'canopy_animator', 'forest_animator':
+            cutters = tree_of(node, config).get('cutters', {}).get('robot', [])
+            self.assertEqual([cutter['frame'] in frames for cutter in cutters], [True] * cuts)
+        truths = [node.remap_args for node in config.nodes if node.type == 'ground_truth_frame.py']
+        drives = robot.get('name') == 'diff_drive'  # Its odometry drifts.
+        self.assertEqual(truths, [[['ground_truth', 'base_pose_ground_truth']]] * drives)
 
 
 if __name__ == '__main__':
