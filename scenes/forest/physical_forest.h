@@ -67,9 +67,10 @@ class PhysicalForest {
     }
     settle();
   }
-  /// Lets the fade after promotion end, in which steps cost several times as much.
+  /// Lets the fade after promotion end, in which steps cost several times as much, and trees become
+  /// calm.
   void settle() {
-    for (int i = 0; i < TICK_RATE; ++i) advance();
+    for (int i = 0; i < 3 * TICK_RATE; ++i) advance();
   }
   void advance() { forest_.advance(grid_.timeOf(++tick_)); }
   void setThreads(int threads) { forest_.setThreads(threads); }

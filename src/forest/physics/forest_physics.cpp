@@ -99,7 +99,8 @@ void ForestPhysics::stepTrees(const TickContext& tick) {
   if (scratches_.size() < ends.size()) scratches_.resize(ends.size());
   tick.forest.threads.run(ends.size(), [&](std::size_t part) {
     for (std::size_t i = part ? ends[part - 1] : 0; i < ends[part]; ++i)
-      trees[i].run(tick, scratches_[part]);
+      trees[i].run({tick.forest, tick.settings, tick.bodies, trees[i].timesIn(tick)},
+                   scratches_[part]);
   });
   for (const TreeSteps& steps : trees) coarse_ += steps.coarseSteps();
   publishContactReactions(trees);

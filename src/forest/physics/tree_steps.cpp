@@ -7,8 +7,14 @@
 namespace vegetation_sim::forest {
 namespace {
 
-/// Steps that use the wind of one stamp: 60 Hz.
-constexpr std::size_t AIR_STEPS = 4;
+/// Steps within this time use the wind of one stamp.
+constexpr Nanoseconds AIR_PERIOD = NANOSECONDS_PER_SECOND / 60 + 1;
+
+std::size_t stepsOfAir(const StepTimes& times) {
+  const Nanoseconds steps =
+      static_cast<Nanoseconds>(times.count) * AIR_PERIOD / (times.to - times.from);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(steps));
+}
 
 }  // namespace
 
@@ -30,14 +36,13 @@ StepTimes TreeSteps::timesIn(const TickContext& tick) const {
 }
 
 void TreeSteps::run(const TickContext& tick, SubtreeScratch& scratch) {
-  times_ = timesIn(tick);
-  air_steps_ = times_.count < tick.times.count ? 1 : AIR_STEPS;
+  const StepTimes& times = tick.times;
   const Run run{tick, tick.forest.windOf(tree_), scratch};
-  collectSprings(times_);
-  accumulateImpulses(run.air, run.scratch, times_.from, times_.from);
-  for (std::size_t k = 0; k < times_.count; ++k) step(run, k);
-  recordGrabs(secondsBetween(times_.from, times_.to));
-  subtree_->demote(run.air, times_.to, tick.settings, scratch);
+  collectSprings(times);
+  accumulateImpulses(run.air, run.scratch, times.from, times.from);
+  for (std::size_t k = 0; k < times.count; ++k) step(run, k);
+  recordGrabs(secondsBetween(times.from, times.to));
+  subtree_->demote(run.air, times.to, tick.settings, scratch);
 }
 
 // Forces are means over a step, so that each push has its whole impulse.
@@ -53,11 +58,13 @@ void TreeSteps::setPushes(Nanoseconds from, Nanoseconds to) {
 
 // Step number k.
 void TreeSteps::step(const Run& run, std::size_t k) {
-  const Nanoseconds from = times_.at(k), to = times_.at(k + 1);
+  const StepTimes& times = run.tick.times;
+  const Nanoseconds from = times.at(k), to = times.at(k + 1);
   setPushes(from, to);
   if (contacts_) return stepNearBodies(run, k);
-  const std::size_t first = k - k % air_steps_, last = std::min(first + air_steps_, times_.count);
-  loads_.air = (times_.at(first) + times_.at(last)) / 2;
+  const std::size_t together = stepsOfAir(times), first = k - k % together,
+                    last = std::min(first + together, times.count);
+  loads_.air = (times.at(first) + times.at(last)) / 2;
   loads_.hold = k != first;
   subtree_->step(run.air, loads_, run.tick.settings, from, to, run.scratch);
   accumulateImpulses(run.air, run.scratch, from, to);
@@ -67,7 +74,7 @@ void TreeSteps::step(const Run& run, std::size_t k) {
 
 void TreeSteps::stepNearBodies(const Run& run, std::size_t k) {
   SubtreeScratch& scratch = run.scratch;
-  const Nanoseconds from = times_.at(k), to = times_.at(k + 1);
+  const Nanoseconds from = run.tick.times.at(k), to = run.tick.times.at(k + 1);
   const ContactTree tree{tree_, subtree_->tree().foot, subtree_->branches(),
                          subtree_->tree().skeleton, scratch.start};
   subtree_->kinematicsAt(run.air, from, scratch, scratch.start);
@@ -89,6 +96,7 @@ void TreeSteps::substep(const Run& run, const ContactTree& tree, std::size_t k, 
   const StepContext& forest = run.tick.forest;
   const PhysicsSettings& settings = run.tick.settings;
   const Bodies& bodies = run.tick.bodies;
+  const StepTimes& times = run.tick.times;
   SubtreeScratch& scratch = run.scratch;
   const PersistentContacts before = *contacts_;
   std::vector<physics::Contact> contacts =
@@ -111,7 +119,7 @@ void TreeSteps::substep(const Run& run, const ContactTree& tree, std::size_t k, 
   std::vector<Reaction> reactions;
   forest.contacts.recordForces(tree, bodies, contacts, to, *contacts_, reactions);
   const double share =
-      static_cast<double>(to - from) / static_cast<double>(times_.at(k + 1) - times_.at(k));
+      static_cast<double>(to - from) / static_cast<double>(times.at(k + 1) - times.at(k));
   for (Reaction& reaction : reactions) reaction.force *= share;
   accumulateReactions(k, reactions);
 }

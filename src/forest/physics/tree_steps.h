@@ -52,7 +52,7 @@ class TreeSteps {
   /// Returns the steps of this tree: those of the tick, or fewer if the tree is calm and its steps
   /// are linearly implicit ones.
   StepTimes timesIn(const TickContext& tick) const;
-  /// Takes all steps, sums what they did to grabs and bodies, and demotes branches.
+  /// Takes all steps of `tick`, sums what they did to grabs and bodies, and demotes branches.
   void run(const TickContext& tick, SubtreeScratch& scratch);
 
   /// Mean forces over the tick on the holders of grabs.
@@ -82,8 +82,6 @@ class TreeSteps {
   std::vector<HeldGrab*> grabs_;
   std::vector<const Push*> pushes_;
   PersistentContacts* contacts_{nullptr};
-  StepTimes times_;
-  std::size_t air_steps_{1};  ///< that use the wind of one stamp
   SubtreeLoads loads_;
   std::vector<Reaction> grab_reactions_;
   std::vector<StepReaction> contact_reactions_;

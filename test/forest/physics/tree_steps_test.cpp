@@ -126,5 +126,73 @@ TEST(TreeSteps, ARestoredForestContinuesWithTheSameBits) {
   }
 }
 
+/// A tree whose joints are all physical in a breeze.
+class WholeTree {
+ public:
+  WholeTree() : rig_(settings()) {
+    wind::Primitive breeze = makeBreeze(1, Vec3(4.0, 2.0, 0.0));
+    breeze.turbulence = 0.2;
+    rig_.forest.setWind(wind::Field({breeze}));
+    touch_.point = {0, rig_.twig(), 0.0};
+    touch_.until = rig_.now() + fromSeconds(0.5);
+    touch_.whole_tree = true;
+    rig_.forest.push(touch_);
+    rig_.run(0.5);
+  }
+  static PhysicsSettings settings() {
+    PhysicsSettings out;
+    out.promotion = Promotion::DEPTH;
+    out.influence_tolerance = 1e-6;  // so that no branch is calm enough to blend back
+    out.linger = 3600.0;
+    return out;
+  }
+  void run(double duration) { rig_.run(duration); }
+  /// Returns the number of steps of the next 1/30 s.
+  std::size_t stepsWith(const PhysicsSettings& settings, bool pushed) {
+    const Forest& forest = rig_.forest;
+    const Nanoseconds now = rig_.now();
+    const StepContext context{forest.layout(),
+                              forest.layoutHash(),
+                              forest.terrain(),
+                              forest.snapshot().wind,
+                              forest.world().levels,
+                              forest.world().modes,
+                              contacts_,
+                              forest.grid(),
+                              threads_,
+                              forest.owners(),
+                              false,
+                              now};
+    PhysicalSubtree subtree = forest.snapshot().physics.subtrees().at(0);
+    TreeSteps steps(0, subtree);
+    if (pushed) steps.add(touch_);
+    return steps.timesIn({context, settings, bodies_, {now, now + fromSeconds(1.0 / 30.0), 8}})
+        .count;
+  }
+
+ private:
+  PhysicsRig rig_;
+  Push touch_;
+  Bodies bodies_;
+  ContactFinder contacts_;
+  ThreadPool threads_;
+};
+
+// Two seconds after the last load a tree takes a quarter of the steps, with the implicit method
+// only; a load brings them back at once.
+TEST(TreeSteps, AreFewerForCalmTrees) {
+  WholeTree tree;
+  const PhysicsSettings usual = WholeTree::settings();
+  EXPECT_EQ(tree.stepsWith(usual, false), 8U);
+  tree.run(CALM_AFTER - 0.3);
+  EXPECT_EQ(tree.stepsWith(usual, false), 8U);
+  tree.run(0.6);
+  EXPECT_EQ(tree.stepsWith(usual, false), 2U);
+  EXPECT_EQ(tree.stepsWith(usual, true), 8U);
+  PhysicsSettings explicit_steps = usual;
+  explicit_steps.integrator = physics::Integrator::SEMI_IMPLICIT_EULER;
+  EXPECT_EQ(tree.stepsWith(explicit_steps, false), 8U);
+}
+
 }  // namespace
 }  // namespace vegetation_sim::forest
