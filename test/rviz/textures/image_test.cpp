@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rviz/ground/ground_texture.h"
+#include "rviz/ground/grain_texture.h"
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
 #include "rviz/textures/sky_texture.h"
