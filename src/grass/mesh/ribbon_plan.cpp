@@ -69,10 +69,10 @@ Float3 shadeRibbon(const RibbonPlan& plan, const Float3& own, const Float3& p, c
 }
 
 float tipSize(const RibbonPlan& plan, const RibbonTip& tip) {
-  constexpr std::uint32_t HEADS = 60300;         // of 65536: random numbers above have a seed head
+  constexpr std::uint32_t HEADS = 62500;         // of 65536: random numbers above have a seed head
   constexpr float LEAST_LENGTH = 0.18f;          // [m] of blades with a seed head
   constexpr float HEAD = 0.09f;                  // half its length per length of the blade
-  constexpr float SMALL = 0.55f, RANGE = 0.35f;  // factor of the radius of flowers
+  constexpr float SMALL = 0.65f, RANGE = 0.35f;  // factor of the radius of flowers
   const float radius = plan.looks[static_cast<std::size_t>(tip.kind)].flower;
   if (!(radius > 0.f)) {
     const bool has_head = (tip.dice & 0xffffU) > HEADS && tip.length > LEAST_LENGTH;
@@ -84,7 +84,7 @@ float tipSize(const RibbonPlan& plan, const RibbonTip& tip) {
   const float wave = std::sin(0.85f * x + 1.2f * std::sin(0.57f * y + 1.f)) +
                      std::sin(0.94f * y + 1.3f * std::sin(0.66f * x));
   const float chance = static_cast<float>(tip.dice & 0xffffU) / 65535.f;
-  if (chance > 0.04f + std::max(0.f, wave - 0.3f)) return 0.f;
+  if (chance > 0.10f + std::max(0.f, wave - 0.1f)) return 0.f;
   return radius * (SMALL + RANGE * static_cast<float>(tip.dice >> 24) / 255.f);
 }
 
@@ -93,7 +93,7 @@ namespace {
 // Adds a spindle around the tip of a blade. @param r half its length [m].
 void writeSeedHead(const RibbonPlan& plan, const Float3& tip, const Float3& below,
                    const Float3& side, float r, std::uint32_t dice, MeshPlaces& out) {
-  constexpr Float3 PALE{0.66f, 0.57f, 0.36f}, BROWN{0.44f, 0.33f, 0.22f};
+  constexpr Float3 PALE{0.66f, 0.57f, 0.36f}, BROWN{0.52f, 0.41f, 0.28f};
   constexpr float THICKNESS = 0.17f;
   constexpr std::array<std::array<float, 2>, PETALS> CORNERS{
       {{0.f, -1.f}, {0.8f, -0.4f}, {0.9f, 0.1f}, {0.f, 1.f}, {-0.9f, 0.1f}, {-0.8f, -0.4f}}};

@@ -45,10 +45,10 @@ struct RibbonLook {
 struct RibbonForm {
   static constexpr float LEAN = 0.22f;          ///< of the tip, per length of the blade
   static constexpr float LENGTH_RANGE = 0.42f;  ///< of the length factor
-  static constexpr float LONGEST = 1.14f, LONGEST_SIBLING = 1.06f;
+  static constexpr float LONGEST = 1.20f, LONGEST_SIBLING = 1.12f;
   static constexpr float STRAW = 0.8f, STRAW_DRY = 1.75f;                  ///< hues above are drier
-  static constexpr float COOL = 0.35f, COOL_RED = 0.9f, COOL_BLUE = 1.4f;  ///< hues below are bluer
-  static constexpr float ROOT_DARK = 0.22f, TIP_BRIGHT = 0.40f;
+  static constexpr float COOL = 0.35f, COOL_RED = 0.6f, COOL_BLUE = 0.8f;  ///< hues below are bluer
+  static constexpr float ROOT_DARK = 0.12f, TIP_BRIGHT = 0.34f;
   static constexpr float STEM = 0.45f;  ///< factor of the width below a flower or a seed head
 };
 

@@ -21,9 +21,9 @@ constexpr int ROWS = 3;                // of strips in a tile, each way
 constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
 constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
 constexpr double LEAVING = 0.5;        // part of the blades that become narrower
-constexpr double SIBLINGS_FADE = 10.0, SIBLINGS_END = 14.0;  // [m] where siblings narrow to nothing
-constexpr double NARROWEST_SIBLING = 0.05;                   // factor of the width
-constexpr double SIBLING_SPREAD = 0.6;                       // per distance of neighbours
+constexpr double SIBLINGS_FADE = 8.0, SIBLINGS_END = 18.0;  // [m] where siblings narrow to nothing
+constexpr double NARROWEST_SIBLING = 0.05;                  // factor of the width
+constexpr double SIBLING_SPREAD = 0.6;                      // per distance of neighbours
 
 // Painted once per process.
 const std::vector<Image>& sharedStrips() {
