@@ -81,8 +81,10 @@ float tipSize(const RibbonPlan& plan, const RibbonTip& tip) {
   // Sums of waves make drifts of some metres, different ones for each species.
   const float x = tip.x + static_cast<float>(plan.tile.x) + 17.f * static_cast<float>(tip.kind);
   const float y = tip.y + static_cast<float>(plan.tile.y) + 5.f * static_cast<float>(tip.kind);
-  const float wave = std::sin(0.85f * x + 1.2f * std::sin(0.57f * y + 1.f)) +
-                     std::sin(0.94f * y + 1.3f * std::sin(0.66f * x));
+  const double bend_y = 1.2 * sinCos(double{0.57f * y + 1.f}).sin;
+  const double bend_x = 1.3 * sinCos(double{0.66f * x}).sin;
+  const auto wave = static_cast<float>(sinCos(double{0.85f * x} + bend_y).sin +
+                                       sinCos(double{0.94f * y} + bend_x).sin);
   const float chance = static_cast<float>(tip.dice & 0xffffU) / 65535.f;
   if (chance > 0.10f + std::max(0.f, wave - 0.1f)) return 0.f;
   return radius * (SMALL + RANGE * static_cast<float>(tip.dice >> 24) / 255.f);

@@ -11,7 +11,6 @@
 #include "rviz/ground/blob_visual.h"
 #include "rviz/ground/meadow_texture.h"
 #include "rviz/render/batch.h"
-#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -79,7 +78,7 @@ double siblingShare(double broad, const grass::MapLaw& law, const grass::TileVie
                     const Vec3& eye) {
   if (broad <= 1.0) return 0.0;
   const double distance = std::sqrt(squareDistance(tile, law, eye));
-  return smoothStep((SIBLINGS_END - distance) / (SIBLINGS_END - SIBLINGS_FADE));
+  return std::clamp((SIBLINGS_END - distance) / (SIBLINGS_END - SIBLINGS_FADE), 0.0, 1.0);
 }
 
 void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "rviz/ground/grain_texture.h"
+#include "rviz/textures/grain_texture.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {

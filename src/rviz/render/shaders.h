@@ -107,9 +107,9 @@ void main() {
 )";
 
 // The ground's colours have their light in them. The second picture is its detail, mean one half:
-// colours of litter for brown ground, alpha of blades for green ground. It is drawn at two scales of
-// different directions, so that its repetition does not show.
-// Near the eye, where plants are drawn on it, the picture's alpha is the light that they leave.
+// colours of litter for brown ground, alpha of blades for green ground. It is drawn at two scales
+// of different directions, so that its repetition does not show. Near the eye, where plants are
+// drawn on it, the picture's alpha is the light that they leave.
 constexpr const char* GROUND_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;
 uniform vec4 haze;

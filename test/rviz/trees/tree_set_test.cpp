@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rviz/ground/grain_texture.h"
 #include "rviz/ground/ground_texture.h"
 #include "rviz/ground/shadow_painter.h"
+#include "rviz/textures/grain_texture.h"
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::view {

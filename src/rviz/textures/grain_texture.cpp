@@ -1,6 +1,6 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/ground/grain_texture.h"
+#include "rviz/textures/grain_texture.h"
 
 #include <algorithm>
 #include <array>
