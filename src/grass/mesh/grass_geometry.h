@@ -35,11 +35,16 @@ struct RibbonStyle {
   const GrassLight* light{nullptr};  ///< null: colours of the map, dark at the root
   /// Blades on cut ground have no flowers and the pale colour of their stems; null: none is cut.
   const CrushPatch* crush{nullptr};
-  float variety{0.f};  ///< variation of colour and lightness between blades; 1 is that of a meadow
+  /// Variation between blades in colour, length and lean; 1 is that of a meadow. Varied blades have
+  /// seed heads, and their flowers stand in drifts.
+  float variety{0.f};
+  /// 0: the blades themselves. 1, 2: varied copies that lean away from them.
+  int sibling{0};
+  double spread{0.0};  ///< largest distance of the roots of siblings along x or y [m]
 };
 
 /// Appends blades of poseBlades() as tapering ribbons (paper 2, section 3.3). A blade of n segments
-/// takes 2 n + 1 vertices and 2 n - 1 triangles; the flower at its tip takes 7 and 6.
+/// takes 2 n + 1 vertices and 2 n - 1 triangles; the flower or seed head at its tip takes 7 and 6.
 void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* blocks, int count,
                    const RibbonStyle& style, GrassMesh& mesh);
 

@@ -30,7 +30,9 @@ struct alignas(64) RibbonRows {
   float position[POSITION_ROWS][BLOCK]{};
   std::uint32_t colour[COLOUR_ROWS][BLOCK]{};
   float side_x[BLOCK]{}, side_y[BLOCK]{}, side_z[BLOCK]{}, kind[BLOCK]{};
-  float flower[BLOCK]{};  // radius, 0: none [m]
+  float flower[BLOCK]{};  // radius, less than 0: half length of a seed head, 0: none [m]
+  float length[BLOCK]{};  // from root to tip [m]
+  std::uint32_t dice[BLOCK]{};
 };
 
 // Data that all ribbons of the same number of segments share.
@@ -74,16 +76,61 @@ HWY_INLINE void putPoint(const Lanes3& p, int vertex, int lane, RibbonRows& rows
   hn::Store(p.z, Tag(), rows.position[3 * vertex + 2] + lane);
 }
 
+// Numbers of a varied blade: RibbonForm.
+struct LanesForm {
+  explicit LanesForm(const RibbonPlan& plan, Words dice) {
+    const Words word = mixLanes(dice + hn::Set(WordTag(), WORD_STEP)),
+                byte = hn::Set(WordTag(), 255);
+    const auto centred = [&](Words bits)
+                             HWY_ATTR { return toLanes(bits) / all(127.5f) - all(1.f); };
+    lean_x = centred(hn::And(word, byte));
+    lean_y = centred(hn::And(hn::ShiftRight<8>(word), byte));
+    hue = toLanes(hn::ShiftRight<24>(word)) / all(255.f);
+    const float longest =
+        plan.style.sibling == 0 ? RibbonForm::LONGEST : RibbonForm::LONGEST_SIBLING;
+    const Lanes random = toLanes(hn::And(hn::ShiftRight<16>(word), byte)) / all(255.f);
+    length = all(1.f) + all(plan.style.variety) *
+                            (all(longest - 1.f) - all(RibbonForm::LENGTH_RANGE) * random);
+  }
+  Lanes lean_x, lean_y, length, hue;
+};
+
+// Blades of some hues are drier, of others bluer.
+HWY_INLINE Lanes dryingOf(const RibbonPlan& plan, const LanesForm& form) {
+  return all(plan.style.variety * RibbonForm::STRAW_DRY) *
+         hn::Max(hn::Zero(Tag()), form.hue - all(RibbonForm::STRAW));
+}
+
+HWY_INLINE Lanes3 tinted(const RibbonPlan& plan, const LanesForm& form, const Lanes3& colour) {
+  const Lanes cool =
+      all(plan.style.variety) * hn::Max(hn::Zero(Tag()), all(RibbonForm::COOL) - form.hue);
+  return {colour.x * (all(1.f) - all(RibbonForm::COOL_RED) * cool), colour.y,
+          colour.z * (all(1.f) + all(RibbonForm::COOL_BLUE) * cool)};
+}
+
 HWY_INLINE Lanes3 ownColour(const RibbonPlan& plan, const LanesLook& look, const LanesCut& cut,
-                            Lanes u, Lanes v, Lanes chance) {
+                            const LanesForm& form, Lanes u, Lanes v, Lanes chance) {
   const float variety = plan.style.variety;
   const Lanes pale = cut.is_cut * all(STUBBLE_PALENESS);
-  const Lanes dry =
-      at(plan.colour, u, v) + all(variety) * (all(0.35f) * chance * chance - all(0.06f));
-  const Lanes3 colour = scaled(sum(look.fresh, scaled(look.drying, unitOf(dry + pale))),
-                               all(1.f) + all(variety * 0.34f) * (chance - all(0.5f)));
+  Lanes dry = at(plan.colour, u, v) + all(variety) * (all(0.35f) * chance * chance - all(0.06f));
+  if (plan.isVaried()) dry = dry + dryingOf(plan, form);
+  Lanes3 colour = scaled(sum(look.fresh, scaled(look.drying, unitOf(dry + pale))),
+                         all(1.f) + all(variety * 0.34f) * (chance - all(0.5f)));
+  if (plan.isVaried()) colour = tinted(plan, form, colour);
   if (!plan.isMown()) return colour;
   return sum(colour, scaled(difference(all3(HAY), colour), cut.hidden));
+}
+
+// Replaces the radii of flowers by the sizes of what stands at the tips of varied blades.
+HWY_INLINE void chooseTips(const RibbonPlan& plan, const BladeBlock& block, int lane,
+                           RibbonRows& rows) {
+  for (int i = lane; i < lane + static_cast<int>(hn::Lanes(Tag())); ++i) {
+    // Lanes beyond the last blade may hold anything.
+    const auto kind =
+        std::min(static_cast<std::size_t>(std::max(0.f, rows.kind[i])), plan.looks.size() - 1);
+    rows.flower[i] = tipSize(
+        plan, {block.x[0][i], block.y[0][i], rows.length[i], rows.dice[i], static_cast<int>(kind)});
+  }
 }
 
 // Computes the ribbons of the blades from `lane` of a block on. `blade` has their indices.
@@ -98,10 +145,27 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
   Lanes3 shift = all3(plan.corner);
   if (plan.style.slide > 0.0)
     shift = sum(shift, slideLanes(x, y, plan.tile.size, static_cast<float>(plan.style.slide)));
+  const Words dice = mixLanes(hn::Xor(blade, hn::Set(WordTag(), plan.seed())));
+  const LanesForm form(plan, dice);
+  if (plan.style.sibling > 0) {
+    const Lanes spread = all(static_cast<float>(plan.style.spread));
+    const Lanes dx = spread * form.lean_x, dy = spread * form.lean_y;
+    shift = sum(shift, {dx, dy, all(plan.slope_x) * dx + all(plan.slope_y) * dy});
+  }
+  const auto posed = [&](int k) HWY_ATTR {
+    return Lanes3{hn::Load(Tag(), block.x[k] + lane), hn::Load(Tag(), block.y[k] + lane),
+                  hn::Load(Tag(), block.z[k] + lane)};
+  };
+  const Lanes3 foot = posed(0), whole = difference(posed(LINKS), foot);
+  const Lanes length =
+      hn::Sqrt(whole.x * whole.x + whole.y * whole.y + whole.z * whole.z) * form.length;
+  const Lanes lean = all(plan.style.variety * RibbonForm::LEAN) * length;
+  const Lanes3 leaning{lean * form.lean_x, lean * form.lean_y, zero};
   const auto point = [&](int k) HWY_ATTR {
-    return sum({hn::Load(Tag(), block.x[k] + lane), hn::Load(Tag(), block.y[k] + lane),
-                hn::Load(Tag(), block.z[k] + lane)},
-               shift);
+    if (!plan.isVaried()) return sum(posed(k), shift);
+    const float way = static_cast<float>(k) / LINKS;
+    const Lanes3 grown = sum(foot, scaled(difference(posed(k), foot), form.length));
+    return sum(sum(grown, scaled(leaning, all(way * way))), shift);
   };
   const LanesLook look = lookLanes(plan, blade, u, v);
   const LanesCut cut = plan.isMown() ? cutLanes(plan, u, v) : LanesCut{zero, zero};
@@ -110,19 +174,33 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
   const Lanes3 side =
       sideLanes(difference(point(LINKS), piece.root), difference(all3(plan.eye), piece.root));
   // Lightness and dryness vary, since blades of one colour look like plastic.
-  const Words dice =
-      mixLanes(hn::Xor(blade, hn::Set(WordTag(), static_cast<std::uint32_t>(plan.tile.key >> 32))));
   const Lanes chance = toLanes(hn::And(dice, hn::Set(WordTag(), 0xffffU))) / all(65535.f);
   piece.facing = hn::Abs(toLanes(hn::ShiftRight<16>(dice)) * all(1.f / 32768.f) - one);
-  piece.own = ownColour(plan, look, cut, u, v, chance);
+  piece.own = ownColour(plan, look, cut, form, u, v, chance);
+  const Lanes3 own = piece.own;
   const auto left = toLanes(hn::Set(WordTag(), static_cast<std::uint32_t>(job.count)) - blade);
   const Lanes leaving = all(job.leaving);
   const Lanes width = hn::IfThenElse(left < leaving, left / leaving, one);
   const auto is_cut = cut.is_cut > zero;
+  hn::Store(look.kind, Tag(), rows.kind + lane);
+  hn::Store(length, Tag(), rows.length + lane);
+  hn::Store(dice, WordTag(), rows.dice + lane);
+  hn::Store(plan.hasTips() ? look.flower : zero, Tag(), rows.flower + lane);
+  if (plan.hasTips() && plan.isVaried()) chooseTips(plan, block, lane, rows);
+  const Lanes tip = hn::IfThenZeroElse(is_cut, hn::Load(Tag(), rows.flower + lane));
+  hn::Store(width * tip, Tag(), rows.flower + lane);
+  Lanes broad = width * look.half;
+  if (plan.isVaried()) broad = hn::IfThenElse(tip == zero, broad, broad * all(RibbonForm::STEM));
   for (int k = 0; k <= SEGMENTS; ++k) {
     const float way = pattern.way[static_cast<std::size_t>(k)];
     piece.p = point(plan.kept[static_cast<std::size_t>(k)]);
     piece.way = hn::IfThenElse(is_cut, all(1.f - STUBBLE_SHADE * (1.f - way)), all(way));
+    if (plan.isVaried()) {
+      const Lanes bright =
+          all(1.f) + all(plan.style.variety) *
+                         (all(RibbonForm::TIP_BRIGHT) * piece.way - all(RibbonForm::ROOT_DARK));
+      piece.own = scaled(own, bright);
+    }
     const Words pixel =
         pixelLanes(plan.style.light ? litLanes(piece, job.light, plan.eye)
                                     : scaled(piece.own, all(0.45f) + all(0.55f) * piece.way));
@@ -131,7 +209,7 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
       putPoint(piece.p, 2 * k, lane, rows);
       break;
     }
-    const Lanes3 half = scaled(side, width * look.half * all(1.f - way * way));
+    const Lanes3 half = scaled(side, broad * all(1.f - way * way));
     putPoint(difference(piece.p, half), 2 * k, lane, rows);
     putPoint(sum(piece.p, half), 2 * k + 1, lane, rows);
     hn::Store(pixel, WordTag(), rows.colour[2 * k + 1] + lane);
@@ -139,8 +217,6 @@ HWY_INLINE void ribbonLanes(const RibbonJob& job, const BladeBlock& block, Words
   hn::Store(side.x, Tag(), rows.side_x + lane);
   hn::Store(side.y, Tag(), rows.side_y + lane);
   hn::Store(side.z, Tag(), rows.side_z + lane);
-  hn::Store(look.kind, Tag(), rows.kind + lane);
-  hn::Store(hn::IfThenZeroElse(is_cut, width * look.flower), Tag(), rows.flower + lane);
 }
 
 // ---- writing -----------------------------------------------------------------------------------
@@ -215,12 +291,14 @@ HWY_INLINE void skip(int vertices, int indices, MeshPlaces& out) {
 void putFlowers(const RibbonPlan& plan, const RibbonRows& rows, int segments, int valid,
                 const MeshPlaces* flowers) {
   for (int lane = 0; lane < valid; ++lane) {
-    if (!(rows.flower[lane] > 0.f)) continue;
+    if (rows.flower[lane] == 0.f) continue;
     const float(*tip)[BLOCK] = rows.position + 6 * segments;
+    const float(*below)[BLOCK] = tip - 6;
     MeshPlaces place = flowers[lane];
-    writeFlower(plan, {tip[0][lane], tip[1][lane], tip[2][lane]},
-                {rows.side_x[lane], rows.side_y[lane], rows.side_z[lane]}, rows.flower[lane],
-                plan.looks[static_cast<std::size_t>(rows.kind[lane])], place);
+    writeTip(plan, {tip[0][lane], tip[1][lane], tip[2][lane]},
+             {below[0][lane], below[1][lane], below[2][lane]},
+             {rows.side_x[lane], rows.side_y[lane], rows.side_z[lane]}, rows.flower[lane],
+             rows.dice[lane], plan.looks[static_cast<std::size_t>(rows.kind[lane])], place);
   }
 }
 
@@ -245,7 +323,7 @@ HWY_INLINE void putBlock(const RibbonJob& job, const RibbonRows& rows, int valid
     copyPattern<INDICES>(job.pattern.index, out.next, out.index);
     skip(VERTICES, INDICES, out);
     if (lane >= valid) continue;
-    if (rows.flower[lane] > 0.f) {
+    if (rows.flower[lane] != 0.f) {
       places.flower[lane] = out;
       any = true;
       skip(PETALS + 1, 3 * PETALS, out);
@@ -321,7 +399,7 @@ void appendRibbons(const FeatureMap& map, const Tile& tile, const BladeBlock* bl
   const RibbonPlan plan(map, tile, style, mesh.origin);
   const auto n = static_cast<std::size_t>(plan.segments());
   const auto blades = static_cast<std::size_t>(blocksFor(count) * BLOCK);
-  const std::size_t flowers = plan.hasFlowers() ? blades : 0;
+  const std::size_t flowers = plan.hasTips() ? blades : 0;
   const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
   const auto next = static_cast<std::uint32_t>(mesh.vertexCount());
   const MeshPlaces end = HWY_DYNAMIC_DISPATCH(writeRibbons)(

@@ -41,6 +41,17 @@ struct RibbonLook {
   float half, flower;  ///< half the width at the root, radius of the flower [m]
 };
 
+/// Variation of a blade, from its random word; each number is 0 to 1 or, for leans, -1 to 1.
+struct RibbonForm {
+  static constexpr float LEAN = 0.22f;          ///< of the tip, per length of the blade
+  static constexpr float LENGTH_RANGE = 0.42f;  ///< of the length factor
+  static constexpr float LONGEST = 1.20f, LONGEST_SIBLING = 1.12f;
+  static constexpr float STRAW = 0.8f, STRAW_DRY = 1.75f;                  ///< hues above are drier
+  static constexpr float COOL = 0.35f, COOL_RED = 0.6f, COOL_BLUE = 0.8f;  ///< hues below are bluer
+  static constexpr float ROOT_DARK = 0.12f, TIP_BRIGHT = 0.34f;
+  static constexpr float STEM = 0.45f;  ///< factor of the width below a flower or a seed head
+};
+
 /// Values that all ribbons of a tile share.
 struct RibbonPlan {
   /// @param origin of the mesh, world [m].
@@ -48,6 +59,14 @@ struct RibbonPlan {
              const Vec3& origin);
   /// Returns whether any species has flowers.
   bool hasFlowers() const;
+  bool isVaried() const { return style.variety > 0.f; }
+  /// Returns whether ribbons may have flowers or seed heads.
+  bool hasTips() const { return style.sibling == 0 && (isVaried() || hasFlowers()); }
+  /// Returns the first argument of mix32() for the random word of a blade, without the blade.
+  std::uint32_t seed() const {
+    return static_cast<std::uint32_t>(tile.key >> 32) ^ static_cast<std::uint32_t>(style.sibling)
+                                                            << 28;
+  }
   /// Returns the number of segments of a ribbon: 1, 2, 3 or LINKS.
   int segments() const {
     return style.segments >= 1 && style.segments <= 3 ? style.segments : LINKS;
@@ -62,6 +81,7 @@ struct RibbonPlan {
   Bilinear<float> colour;
   std::array<int, POINTS> kept;   ///< the points that a ribbon of style.segments keeps, root first
   std::vector<RibbonLook> looks;  ///< per species
+  float slope_x{0.f}, slope_y{0.f};  ///< mean slope of the ground
 };
 
 /// Places in reserved memory of a mesh where the next vertex and triangle go.
@@ -94,9 +114,21 @@ struct MeshPlaces {
 Float3 shadeRibbon(const RibbonPlan& plan, const Float3& own, const Float3& p, const Float3& root,
                    float way, float facing);
 
-/// Adds a disc of radius r [m] at the tip of a blade. It faces half upwards and half to the viewer.
-/// @param side unit vector across the blade.
-void writeFlower(const RibbonPlan& plan, const Float3& tip, const Float3& side, float r,
-                 const RibbonLook& look, MeshPlaces& out);
+/// A blade with what may stand at its tip.
+struct RibbonTip {
+  float x, y;          ///< root, in the tile [m]
+  float length;        ///< distance from root to tip [m]
+  std::uint32_t dice;  ///< random word of the blade
+  int kind;            ///< species
+};
+/// Returns the radius of the flower of a varied blade, the negative half length of its seed head,
+/// or 0 [m].
+float tipSize(const RibbonPlan& plan, const RibbonTip& tip);
+
+/// Adds a disc of radius r [m] at the tip of a blade, or a seed head if r is negative. A disc faces
+/// half upwards and half to the viewer; of varied blades it is tilted at random.
+/// @param side unit vector across the blade. @param below a point of the blade below its tip.
+void writeTip(const RibbonPlan& plan, const Float3& tip, const Float3& below, const Float3& side,
+              float r, std::uint32_t dice, const RibbonLook& look, MeshPlaces& out);
 
 }  // namespace vegetation_sim::grass

@@ -43,11 +43,10 @@ class Ribbons {
     for (int blade = 0; blade < count; ++blade) {
       const int kind = kindOf(blocks[blade / BLOCK], blade);
       kinds_[static_cast<std::size_t>(blade)] = kind;
+      const bool none = !plan_.hasTips() || cutAt(blocks[blade / BLOCK], blade).is_cut;
       flowers_[static_cast<std::size_t>(blade)] =
-          cutAt(blocks[blade / BLOCK], blade).is_cut
-              ? 0.f
-              : plan_.looks[static_cast<std::size_t>(kind)].flower;
-      flowers += flowers_[static_cast<std::size_t>(blade)] > 0.f ? 1 : 0;
+          none ? 0.f : tipOf(blocks[blade / BLOCK], blade, kind);
+      flowers += flowers_[static_cast<std::size_t>(blade)] != 0.f ? 1 : 0;
     }
     const auto blades = static_cast<std::size_t>(count);
     const std::size_t vertices = blades * (2 * n + 1) + flowers * (PETALS + 1);
@@ -63,6 +62,42 @@ class Ribbons {
   }
 
  private:
+  // Numbers of a varied blade: RibbonForm.
+  struct Form {
+    float lean_x, lean_y, length, hue;
+  };
+  Form formOf(std::uint32_t dice) const {
+    const std::uint32_t word = mix32(dice + WORD_STEP);
+    const auto centred = [](std::uint32_t bits) {
+      return static_cast<float>(bits & 0xff) / 127.5f - 1.f;
+    };
+    const float longest =
+        plan_.style.sibling == 0 ? RibbonForm::LONGEST : RibbonForm::LONGEST_SIBLING;
+    const float random = static_cast<float>(word >> 16 & 0xff) / 255.f;
+    return {centred(word), centred(word >> 8),
+            1.f + plan_.style.variety * ((longest - 1.f) - RibbonForm::LENGTH_RANGE * random),
+            static_cast<float>(word >> 24) / 255.f};
+  }
+
+  std::uint32_t diceOf(int blade) const {
+    return mix32(static_cast<std::uint32_t>(blade) ^ plan_.seed());
+  }
+
+  float lengthOf(const BladeBlock& block, int lane, const Form& form) const {
+    const Float3 foot{block.x[0][lane], block.y[0][lane], block.z[0][lane]};
+    const Float3 whole =
+        Float3{block.x[LINKS][lane], block.y[LINKS][lane], block.z[LINKS][lane]} - foot;
+    return std::sqrt(whole.x * whole.x + whole.y * whole.y + whole.z * whole.z) * form.length;
+  }
+
+  float tipOf(const BladeBlock& block, int blade, int kind) const {
+    if (!plan_.isVaried()) return plan_.looks[static_cast<std::size_t>(kind)].flower;
+    const int lane = blade % BLOCK;
+    const std::uint32_t dice = diceOf(blade);
+    return tipSize(plan_, {block.x[0][lane], block.y[0][lane], lengthOf(block, lane, formOf(dice)),
+                           dice, kind});
+  }
+
   struct Cut {
     bool is_cut;
     float hidden;  ///< share that is below cut grass
@@ -100,34 +135,60 @@ class Ribbons {
     Float3 shift = plan_.corner;
     if (style.slide > 0.0)
       shift = shift + wayToEdge(x, y, tile.size) * static_cast<float>(style.slide);
-    const auto point = [&](int k) {
+    const std::uint32_t dice = diceOf(blade);
+    const Form form = formOf(dice);
+    if (style.sibling > 0) {
+      const auto spread = static_cast<float>(style.spread);
+      const float dx = spread * form.lean_x, dy = spread * form.lean_y;
+      shift = shift + Float3{dx, dy, plan_.slope_x * dx + plan_.slope_y * dy};
+    }
+    const auto posed = [&](int k) {
       const auto i = static_cast<std::size_t>(k);
-      return Float3{block.x[i][lane], block.y[i][lane], block.z[i][lane]} + shift;
+      return Float3{block.x[i][lane], block.y[i][lane], block.z[i][lane]};
+    };
+    const Float3 foot = posed(0);
+    const float lean = style.variety * RibbonForm::LEAN * lengthOf(block, lane, form);
+    const Float3 leaning{lean * form.lean_x, lean * form.lean_y, 0.f};
+    const auto point = [&](int k) {
+      if (!plan_.isVaried()) return posed(k) + shift;
+      const float along = static_cast<float>(k) / LINKS;
+      return foot + (posed(k) - foot) * form.length + leaning * (along * along) + shift;
     };
     const RibbonLook& look =
         plan_.looks[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(blade)])];
     const Float3 root = point(0), tip = point(LINKS);
     const Float3 side = sideOf(tip - root, plan_.eye - root);
     // Lightness and dryness vary, since blades of one colour look like plastic.
-    const std::uint32_t dice =
-        mix32(static_cast<std::uint32_t>(blade) ^ static_cast<std::uint32_t>(tile.key >> 32));
     const float chance = static_cast<float>(dice & 0xffff) / 65535.f;
     const float facing = std::fabs(static_cast<float>(dice >> 16) / 32768.f - 1.f);
     const Cut cut = cutAt(block, blade);
     const float pale = cut.is_cut ? STUBBLE_PALENESS : 0.f;
-    const float dry = plan_.colour.at(x / tile.size, y / tile.size) +
-                      style.variety * (0.35f * chance * chance - 0.06f);
+    float dry = plan_.colour.at(x / tile.size, y / tile.size) +
+                style.variety * (0.35f * chance * chance - 0.06f);
+    if (plan_.isVaried())
+      dry =
+          dry + style.variety * RibbonForm::STRAW_DRY * std::max(0.f, form.hue - RibbonForm::STRAW);
     Float3 own = (look.fresh + look.drying * std::min(1.f, std::max(0.f, dry + pale))) *
                  (1.f + style.variety * 0.34f * (chance - 0.5f));
+    if (plan_.isVaried()) {
+      const float cool = style.variety * std::max(0.f, RibbonForm::COOL - form.hue);
+      own = {own.x * (1.f - RibbonForm::COOL_RED * cool), own.y,
+             own.z * (1.f + RibbonForm::COOL_BLUE * cool)};
+    }
     own = own + (HAY - own) * cut.hidden;
+    const float radius = flowers_[static_cast<std::size_t>(blade)];
+    float broad = width * look.half;
+    if (plan_.isVaried() && radius != 0.f) broad = broad * RibbonForm::STEM;
     const std::uint32_t first = out.next;
     for (int k = 0; k <= style.segments; ++k) {
       const int at = plan_.kept[static_cast<std::size_t>(k)];
-      const float way = static_cast<float>(at) / LINKS,
-                  half = width * look.half * (1.f - way * way);
+      const float way = static_cast<float>(at) / LINKS, half = broad * (1.f - way * way);
       const Float3 p = point(at);
-      const Float3 c = shadeRibbon(plan_, own, p, root,
-                                   cut.is_cut ? 1.f - STUBBLE_SHADE * (1.f - way) : way, facing);
+      const float lit_way = cut.is_cut ? 1.f - STUBBLE_SHADE * (1.f - way) : way;
+      const float bright =
+          1.f + style.variety * (RibbonForm::TIP_BRIGHT * lit_way - RibbonForm::ROOT_DARK);
+      const Float3 c =
+          shadeRibbon(plan_, plan_.isVaried() ? own * bright : own, p, root, lit_way, facing);
       if (k == style.segments) {
         out.vertex(p, 0.5f, 1.f, c);
         break;
@@ -137,8 +198,11 @@ class Ribbons {
     }
     for (std::uint32_t t = 0; t + 1 < 2 * static_cast<std::uint32_t>(style.segments); ++t)
       out.triangle(first + t, first + t + 1, first + t + 2);
-    const float radius = flowers_[static_cast<std::size_t>(blade)];
-    if (radius > 0.f) writeFlower(plan_, tip, side, width * radius, look, out);
+    const float last =
+        static_cast<float>(plan_.kept[static_cast<std::size_t>(style.segments - 1)]) / LINKS;
+    const Float3 below = point(plan_.kept[static_cast<std::size_t>(style.segments - 1)]) -
+                         side * (broad * (1.f - last * last));
+    if (radius != 0.f) writeTip(plan_, tip, below, side, width * radius, dice, look, out);
   }
 
   RibbonPlan plan_;

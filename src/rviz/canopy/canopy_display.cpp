@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/canopy/canopy_display.h"
 
+#include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
 namespace vegetation_sim {
 namespace {
 
 constexpr int GROUND_RANK = 0;  // plain grass
+// The shadow below a plant: its radius per radius of the plant, its strength, and the largest
+// number of plants that have one.
+constexpr double PLANT_SHADOW = 0.75, PLANT_DARK = 0.55;
+constexpr std::size_t MOST_CONTACTS = 400;
 
 }  // namespace
 
@@ -28,6 +33,7 @@ void CanopyDisplay::open() {
 
 void CanopyDisplay::close() {
   dropGround();
+  contacts_.reset();
   canopy_.reset();
   source_.reset();
   terrain_source_.reset();
@@ -48,6 +54,7 @@ void CanopyDisplay::light(const view::Daylight& daylight, const view::Haze& haze
   to_sun_ = daylight.to_sun;
   if (canopy_) canopy_->light(daylight, haze);
   if (ground_) ground_->light(daylight, daylight.to_sun, haze);
+  if (contacts_) contacts_->light(daylight, haze);
 }
 
 void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
@@ -58,11 +65,13 @@ void CanopyDisplay::draw(Nanoseconds stamp, const view::View& view) {
     canopy_.reset();
     canopy_ = std::make_unique<view::CanopyVisual>(*scene_node_, *source_, to_sun_);
     canopy_->light(properties_->daylight(), properties_->hazeValues());
+    makeContacts();
   }
   view::CanopyVisual::Options options = properties_->options();
   options.share = feedback_.update(frameTime(), properties_->frameTime());
   canopy_->update(*source_, stamp, view, options);
   const std::vector<view::Extent> cut = canopy_->takeCutAreas();
+  if (!cut.empty()) makeContacts();
   if (!givesGround(terrain_source_->ground())) return;
   if (ground_)
     repaintGround(cut);
@@ -79,6 +88,28 @@ void CanopyDisplay::makeGround() {
                                          terrain_source_->ground(), daylight.to_sun),
                         terrain_source_->ground(), daylight, properties_->groundTint());
   ground_->light(daylight, daylight.to_sun, properties_->hazeValues());
+}
+
+// Lays a soft shadow below each plant that has not been cut.
+void CanopyDisplay::makeContacts() {
+  const canopy::Replica& canopy = *source_->replica();
+  const canopy::Layout& layout = canopy.layout();
+  std::vector<view::BlobShadow> shadows;
+  for (std::size_t i = 0; i < layout.plants.size() && shadows.size() < MOST_CONTACTS; ++i) {
+    const canopy::Plant& plant = layout.plants[i];
+    if (canopy.cutHeight(i) < canopy::UNCUT) continue;
+    const double radius = PLANT_SHADOW * plant.scale * layout.kinds[plant.kind].radius;
+    // The feet are on the ground that the publisher knows, which may differ from that known here.
+    Vec3 foot = plant.position;
+    foot.z() = terrain_source_->ground().height(foot.x(), foot.y());
+    if (std::fabs(foot.z() - plant.position.z()) > radius) continue;
+    if (const auto shadow = view::contactShadow(view::capsuleBox(foot, foot, radius), PLANT_DARK,
+                                                terrain_source_->ground()))
+      shadows.push_back(*shadow);
+  }
+  contacts_ = std::make_unique<view::BlobVisual>(*scene_node_);
+  contacts_->light(properties_->daylight(), properties_->hazeValues());
+  contacts_->fill(std::move(shadows), source_->frame(), terrain_source_->ground());
 }
 
 // Plants that have been cut give less shadow.

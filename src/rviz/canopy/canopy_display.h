@@ -8,6 +8,7 @@
 
 #include "core/lod/feedback_budget.h"
 #include "rviz/canopy/canopy_properties.h"
+#include "rviz/ground/blob_visual.h"
 #include "rviz/ground/ground_source.h"
 #include "rviz/ground/ground_visual.h"
 #include "rviz/scenery/scenery_display.h"
@@ -39,6 +40,7 @@ class CanopyDisplay : public SceneryDisplay {
 
  private:
   void makeGround();
+  void makeContacts();
   void repaintGround(const std::vector<view::Extent>& areas);
   void repaintGround(const view::Plot& plot, const view::Window& window);
 
@@ -50,6 +52,7 @@ class CanopyDisplay : public SceneryDisplay {
   Vec3 to_sun_{Vec3::Zero()};  // for which leaves are lit
   FeedbackBudget feedback_;    // of leaves
   int layouts_{0};
+  std::unique_ptr<view::BlobVisual> contacts_;  // around the feet of plants
 };
 
 }  // namespace vegetation_sim

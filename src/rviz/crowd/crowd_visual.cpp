@@ -19,9 +19,9 @@ namespace {
 constexpr double STILL = 1e-4;      // [m], [rad] a viewer moves without effect
 constexpr double LIFT = 0.02;       // [m] of shadows over the ground
 constexpr double LONGEST = 2.5;     // length of a shadow in heights
-constexpr std::uint8_t DARK = 150;  // alpha of a shadow
+constexpr std::uint8_t DARK = 175;  // alpha of a shadow
 // Strengths of contact shadows below feet and bodies, and of a body's shadow on grass.
-constexpr double FOOT_DARK = 0.6, BODY_DARK = 0.3, GRASS_DARK = 0.45;
+constexpr double FOOT_DARK = 0.75, BODY_DARK = 0.5, GRASS_DARK = 0.6;
 
 Vec3 placeOf(const SubscribedCrowd::Person& person) {
   return {person.walker.position.x, person.walker.position.y, person.ground};
@@ -148,7 +148,7 @@ void CrowdVisual::addContacts(const Person& person, const terrain::HeightMap& te
     add(contactShadow(box(crowd::Part::FOOT, side), FOOT_DARK, terrain));
   const double height = person.walker.height;
   const Vec3 foot(person.walker.position.x, person.walker.position.y, person.ground - rise);
-  add(contactShadow(capsuleBox(foot, foot, 0.16 * height), BODY_DARK, terrain));
+  add(contactShadow(capsuleBox(foot, foot, 0.18 * height), BODY_DARK, terrain));
   if (!options.shadows) return;
   const Vec3 top = foot + Vec3(0.0, 0.0, 0.9 * height);
   std::optional<BlobShadow> body =

@@ -13,8 +13,8 @@ constexpr int GROUND_RANK = 1;       // the ground has floor and shadows of a fo
 constexpr int GROUND_EDGE = 1024;    // [pixel] of the ground texture
 constexpr double GROUND_CELL = 3.0;  // [m] of the ground mesh
 // Radius of the contact shadow of a trunk: that of the trunk times a factor and some room [m].
-constexpr double TRUNK_SHADOW = 2.2, TRUNK_ROOM = 0.12;
-constexpr double TRUNK_DARK = 0.65;  // strength of it
+constexpr double TRUNK_SHADOW = 2.6, TRUNK_ROOM = 0.12;
+constexpr double TRUNK_DARK = 0.75;  // strength of it
 constexpr double LEAST_TRIANGLES = 1000.0;
 constexpr double LONGEST_WAIT = 3.0;  // [s] for trees that fade to other levels
 

@@ -45,7 +45,8 @@ void GrassProperties::addLook(rviz::Display& display) {
                          "rows in it: fewer triangles, but tiles are visible.",
                          display);
   variety_ =
-      addNumber("Variety", 1.f, "How much colours differ from blade to blade.", 0.f, 2.f, display);
+      addNumber("Variety", 1.f, "How much colour, length and lean differ from blade to blade.", 0.f,
+                2.f, display);
   colour_by_level_ = addFlag("Colour by Level", false,
                              "Paint blades red, strips blue and layers violet.", display);
   addRate(display, "Grass moves");

@@ -13,7 +13,7 @@ namespace {
 constexpr double BLOB_LIFT = 0.02;        // [m] of the mesh over the ground
 constexpr double LOWEST_BLOB_SUN = 0.25;  // sine of the lowest elevation that makes shadows longer
 constexpr double FARTHEST_SHADOW = 8.0;   // [m] from a box to its shadow
-constexpr double SOFT_EDGE = 1.25;        // factor of the half axes, since the edge is faint
+constexpr double SOFT_EDGE = 1.3;         // factor of the half axes, since the edge is faint
 constexpr double CONTACT_GAP = 0.12;      // [m] below a box at which its shadow is half as strong
 constexpr double FAINTEST = 0.02;         // strength of shadows that are left out
 constexpr double CONTACT_HEIGHT = 0.25;   // [m] BlobShadow::height below a box that stands
@@ -68,7 +68,7 @@ std::optional<BlobShadow> contactShadow(const ShadowBox& box, double strength,
   setAxes(box.half, 0.0, out);
   // A broad body hides the sky from farther above.
   const double part = gap / (CONTACT_GAP + 0.3 * length(out.second));
-  setAxes(box.half, 0.03 + 0.5 * gap, out);
+  setAxes(box.half, 0.05 + 0.5 * gap, out);
   out.strength = strength / (1.0 + part * part);
   out.height = CONTACT_HEIGHT + gap;
   if (out.strength < FAINTEST) return {};
@@ -108,7 +108,7 @@ double shadeAt(const BlobShadow& shadow, const Vec3& place) {
   const auto [u, v] = alongAxes(way - high * shadow.slant);
   const double inside = 1.0 - u * u - v * v;
   if (inside <= 0.0) return 0.0;
-  return shadow.strength * inside * inside * std::exp(-high / shadow.height);
+  return shadow.strength * inside * inside * (3.0 - 2.0 * inside) * std::exp(-high / shadow.height);
 }
 
 void appendShadow(const BlobShadow& shadow, const terrain::HeightMap& terrain,

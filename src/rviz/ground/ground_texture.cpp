@@ -13,12 +13,12 @@ namespace {
 
 constexpr double ROOM = 14.0;         // [m] margin around the trees
 constexpr double LAND_BORDER = 0.12;  // share of the edge that fades to plain grass
-constexpr Rgba GRASS_DEEP{0.25f, 0.30f, 0.12f, 1.f}, GRASS_FRESH{0.37f, 0.41f, 0.17f, 1.f};
-constexpr Rgba GRASS_DRY{0.52f, 0.47f, 0.27f, 1.f};
-constexpr Rgba HERBS{0.21f, 0.33f, 0.13f, 1.f}, BARE{0.42f, 0.35f, 0.24f, 1.f};
-constexpr Rgba LITTER{0.30f, 0.24f, 0.15f, 1.f}, MOSS{0.20f, 0.26f, 0.09f, 1.f};
-constexpr Rgba HUMUS{0.17f, 0.13f, 0.09f, 1.f};
-constexpr Rgba OCHRE_LEAF{0.52f, 0.36f, 0.16f, 1.f}, PALE_LEAF{0.56f, 0.47f, 0.30f, 1.f};
+constexpr Rgba GRASS_DEEP{0.24f, 0.28f, 0.13f, 1.f}, GRASS_FRESH{0.35f, 0.39f, 0.19f, 1.f};
+constexpr Rgba GRASS_DRY{0.46f, 0.43f, 0.27f, 1.f};
+constexpr Rgba HERBS{0.23f, 0.31f, 0.15f, 1.f}, BARE{0.39f, 0.34f, 0.26f, 1.f};
+constexpr Rgba LITTER{0.30f, 0.25f, 0.175f, 1.f}, MOSS{0.22f, 0.25f, 0.13f, 1.f};
+constexpr Rgba HUMUS{0.20f, 0.165f, 0.12f, 1.f};
+constexpr Rgba OCHRE_LEAF{0.46f, 0.36f, 0.22f, 1.f}, PALE_LEAF{0.52f, 0.45f, 0.32f, 1.f};
 constexpr float RELIEF = 0.30f;      // height of hummocks [m], of which only the light is drawn
 constexpr double SLOPE_STEP = 0.08;  // [m] over which their slope is measured
 
@@ -28,17 +28,6 @@ float ramp(double low, double high, double x) {
 
 Rgba times(const Rgba& a, const Rgba& b) {
   return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
-}
-
-// Noise that repeats without a seam for any edge: each place is mixed with its neighbours one edge
-// away.
-float repeatingNoise(const Noise& noise, float x, float y, float edge) {
-  const auto row = [&](float at_y) {
-    const float part = x / edge;
-    return (1.f - part) * noise.smooth(x, at_y) + part * noise.smooth(x - edge, at_y);
-  };
-  const float part = y / edge;
-  return (1.f - part) * row(y) + part * row(y - edge);
 }
 
 }  // namespace
@@ -72,7 +61,9 @@ Rgba grassColour(const Noise& noise, float x, float y, float fine) {
   const float broad = noise.fractal(x / 23.f, y / 23.f, 3);
   Rgba out = mix(GRASS_DEEP, GRASS_FRESH, ramp(0.3, 0.7, broad));
   out = mix(out, GRASS_DRY, 0.6f * ramp(0.52, 0.85, noise.fractal(x / 11.f, y / 11.f + 30.f, 3)));
-  out = mix(out, HERBS, 0.7f * ramp(0.56, 0.66, noise.fractal(x / 3.7f + 21.f, y / 3.7f, 3)));
+  const float ragged = 0.3f * (noise.smooth(x / 0.37f + 9.f, y / 0.37f) - 0.5f);
+  const float herbs = noise.fractal(x / 3.7f + 21.f, y / 3.7f, 3) + ragged;
+  out = mix(out, HERBS, 0.7f * ramp(0.54, 0.68, herbs));
   out = mix(out, times(out, {0.74f, 0.80f, 0.66f, 1.f}), ramp(0.4, 0.7, fine));
   const float tufts = 0.7f + 0.6f * noise.fractal(x / 0.7f, y / 0.7f + 3.f, 2);
   return times(out, {tufts, tufts, tufts, 1.f});
@@ -80,7 +71,8 @@ Rgba grassColour(const Noise& noise, float x, float y, float fine) {
 
 // Returns the colour of humus and moss with fallen leaves on them.
 Rgba floorColour(const Noise& noise, float x, float y) {
-  const float patches = noise.fractal(x / 5.f, y / 5.f + 11.f, 4);
+  const float ragged = 0.35f * (noise.fractal(x / 0.45f + 3.f, y / 0.45f, 2) - 0.5f);
+  const float patches = noise.fractal(x / 5.f, y / 5.f + 11.f, 4) + ragged;
   Rgba out = mix(LITTER, MOSS, ramp(0.46, 0.66, patches));
   out = mix(out, HUMUS, 0.8f * ramp(0.55, 0.35, noise.fractal(x / 1.7f + 40.f, y / 1.7f, 3)));
   const Rgba leaf = mix(OCHRE_LEAF, PALE_LEAF, ramp(0.3, 0.7, noise.smooth(x / 0.31f, y / 0.29f)));
@@ -106,7 +98,8 @@ Vec3 roughNormal(const Noise& noise, double x, double y, const Vec3& normal) {
 Rgba groundColour(const Noise& noise, double x, double y, double shelter, const Rgba& tint) {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
   const float fine = noise.fractal(fx / 2.3f + 7.f, fy / 2.3f, 3);
-  const float bare = ramp(0.62, 0.72, noise.fractal(fx / 6.1f + 50.f, fy / 6.1f + 8.f, 4));
+  const float ragged = 0.25f * (noise.fractal(fx / 0.5f, fy / 0.5f + 17.f, 2) - 0.5f);
+  const float bare = ramp(0.60, 0.74, noise.fractal(fx / 6.1f + 50.f, fy / 6.1f + 8.f, 4) + ragged);
   Rgba out = times(grassColour(noise, fx, fy, fine), tint);
   out = mix(out, times(BARE, {0.8f + 0.4f * fine, 0.8f + 0.4f * fine, 0.8f + 0.4f * fine, 1.f}),
             0.8f * bare);
@@ -158,39 +151,6 @@ Image groundPicture(const Plot& plot, int edge, const Window& window, const Shad
       pixel[3] = 1.f;
     }
   }
-  return out;
-}
-
-Image grainPicture(int edge) {
-  const Noise noise(GROUND_SEED + 1);
-  Image out(edge, edge, {});
-  const float unit = static_cast<float>(Noise::PERIOD) / static_cast<float>(edge);
-  constexpr float BROAD = 0.25f * static_cast<float>(Noise::PERIOD);
-  for (int r = 0; r < edge; ++r) {
-    for (int c = 0; c < edge; ++c) {
-      const float x = static_cast<float>(c) * unit, y = static_cast<float>(r) * unit;
-      const float value = 0.43f + 0.25f * (noise.smooth(x, y) - 0.5f) +
-                          0.35f * (repeatingNoise(noise, 0.25f * x, 0.25f * y, BROAD) - 0.5f);
-      out.at(c, r) = {value, value, value, 1.f};
-    }
-  }
-  // Paints blades in all directions, light on dark.
-  const Random random(GROUND_SEED);
-  const int blades = edge * edge / 40;
-  for (int i = 0; i < blades; ++i) {
-    const Random own = random.child(static_cast<std::uint64_t>(i));
-    const double angle = own.uniform(2, 0.0, 2.0 * PI), way = own.uniform(3, 0.01, 0.03) * edge;
-    const auto light = static_cast<float>(own.uniform(4, 0.22, 0.82));
-    for (double s = 0.0; s < way; s += 0.7) {
-      const int c = static_cast<int>(own.uniform(0) * edge + s * std::cos(angle)) & (edge - 1);
-      const int r = static_cast<int>(own.uniform(1) * edge + s * std::sin(angle)) & (edge - 1);
-      out.blend(c, r, {light, light, light, 0.7f});
-    }
-  }
-  float mean = 0.f;
-  for (const Rgba& pixel : out.pixels) mean += pixel[0] / static_cast<float>(out.pixels.size());
-  for (Rgba& pixel : out.pixels)
-    for (std::size_t i = 0; i < 3; ++i) pixel[i] *= 0.5f / mean;
   return out;
 }
 

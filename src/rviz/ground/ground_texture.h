@@ -55,7 +55,4 @@ Image groundPicture(const Plot& plot, int edge, const Window& window, const Shad
 Image groundPicture(const Plot& plot, int edge, const TreeSet& tree_set,
                     const terrain::HeightMap& terrain, const Daylight& daylight, const Rgba& tint);
 
-/// Paints fine repeating grain with a mean of one half. @param edge must be a power of two.
-Image grainPicture(int edge);
-
 }  // namespace vegetation_sim::view

@@ -8,12 +8,13 @@
 #include <array>
 #include <cmath>
 
+#include "rviz/textures/grain_texture.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int GRAIN_EDGE = 512;      // [pixel]
+constexpr int GRAIN_EDGE = 1024;     // [pixel]
 constexpr int TILES = 4;             // batches along an edge, culled one by one
 constexpr int MOST_TILE_CELLS = 40;  // along the edge of a tile
 // Radii of rings around the plot, in half edges.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t MOST_BOXES = 200;
 constexpr double SMALLEST_BOX = 0.015;  // [m] longest half side of what casts a shadow
-constexpr double CONTACT_DARK = 0.55, SUN_DARK = 0.5;
+constexpr double CONTACT_DARK = 0.7, SUN_DARK = 0.55;
 
 bool castsShadows(const Ogre::Entity& entity) {
   if (!entity.isVisible() || entity.getNumSubEntities() == 0) return false;

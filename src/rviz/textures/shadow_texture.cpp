@@ -41,7 +41,7 @@ Image blobPicture() {
     for (int c = 0; c < BLOB_EDGE; ++c) {
       const double x = 2.0 * (c + 0.5) / BLOB_EDGE - 1.0, y = 2.0 * (r + 0.5) / BLOB_EDGE - 1.0;
       const double inside = std::max(0.0, 1.0 - x * x - y * y);
-      out.at(c, r)[3] = static_cast<float>(inside * inside);
+      out.at(c, r)[3] = static_cast<float>(inside * inside * (3.0 - 2.0 * inside));
     }
   }
   return out;

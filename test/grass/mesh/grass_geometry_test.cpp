@@ -132,6 +132,60 @@ TEST(Ribbons, FlowersStandAtTheTips) {
   EXPECT_EQ(mesh.indices.size(), 3u * 500u * 9u);
 }
 
+// Varied blades differ in length, some have a seed head of 7 vertices, and their siblings stand
+// within `spread` of them without one.
+TEST(Ribbons, VariedOnesDifferInLengthAndHaveSeedHeads) {
+  const FeatureMap map;
+  const Tile tile = makeTile(map, terrain::HeightMap(), 1, 0, 0);
+  const auto blocks = posed(tile, TileMotion(), 500);
+  GrassMesh mesh;
+  RibbonStyle style;
+  style.variety = 1.f;
+  style.spread = 0.04;
+  appendRibbons(map, tile, blocks.data(), 500, style, mesh);
+  expectSound(mesh);
+  EXPECT_GT(mesh.vertexCount(), 500u * 11u + 8u * 7u);
+  EXPECT_LT(mesh.vertexCount(), 500u * 11u + 80u * 7u);
+  mesh.clear();
+  style.sibling = 1;
+  appendRibbons(map, tile, blocks.data(), 500, style, mesh);
+  ASSERT_EQ(mesh.vertexCount(), 500u * 11u);
+  double shortest = 10.0, longest = 0.0;
+  for (int blade = 0; blade < 500; ++blade) {
+    const std::size_t first = 11 * static_cast<std::size_t>(blade);
+    const Vec3 root = 0.5 * (vertex(mesh, first) + vertex(mesh, first + 1));
+    const Vec3 own = pointOf(blocks, blade, 0), way = root - own;
+    EXPECT_LE(std::max(std::fabs(way.x()), std::fabs(way.y())), style.spread + 1e-5);
+    const double part =
+        (vertex(mesh, first + 10) - root).norm() / (pointOf(blocks, blade, LINKS) - own).norm();
+    shortest = std::min(shortest, part);
+    longest = std::max(longest, part);
+  }
+  EXPECT_LT(shortest, 0.8);
+  EXPECT_GT(longest, 1.0);
+}
+
+// In drifts stand only some of the flowers of varied blades.
+TEST(Ribbons, VariedOnesHaveFewerFlowers) {
+  MapInput input;
+  input.species.resize(1);
+  input.species.front().species.flower_radius = 0.02;
+  const FeatureMap map(input);
+  std::size_t flowers = 0, blades = 0;
+  for (int column = 0; column < 8; ++column) {
+    const Tile tile = makeTile(map, terrain::HeightMap(), 1, column, 0);
+    const auto blocks = posed(tile, TileMotion(), 200);
+    GrassMesh mesh;
+    RibbonStyle style;
+    style.variety = 1.f;
+    appendRibbons(map, tile, blocks.data(), 200, style, mesh);
+    flowers += (mesh.vertexCount() - 200u * 11u) / 7u;
+    blades += 200;
+  }
+  EXPECT_GT(flowers, blades / 10);
+  EXPECT_LT(flowers, blades * 3 / 4);
+}
+
 // A meadow with and without flowers, sloped, trodden and mown in the east.
 struct RibbonScene {
   explicit RibbonScene(int species) : patch(rampPatch(1.2f, 0.8f, 0.6f)) {
@@ -174,6 +228,8 @@ std::vector<RibbonStyle> ribbonStyles(const CrushPatch& patch, const GrassLight&
         style.leaving = lit ? 0.25 : 0.0;
         style.variety = lit ? 1.f : 0.f;
         style.width = lit ? 1.7 : 1.0;
+        style.sibling = lit && segments == 2 ? 1 : 0;
+        style.spread = 0.05;
         out.push_back(style);
       }
   return out;

@@ -80,7 +80,7 @@ TEST(BlobShadow, FollowsTheSlopeOfTheGround) {
     highest = std::max(highest, pz - mesh.origin.z());
   }
   EXPECT_GT(highest - lowest, 0.01);
-  EXPECT_NEAR(shadeAt(*shadow, shadow->centre + 0.5 * shadow->first), 0.6 * 0.5625, 1e-6);
+  EXPECT_NEAR(shadeAt(*shadow, shadow->centre + 0.5 * shadow->first), 0.6 * 0.84375, 1e-6);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rviz/ground/ground_texture.h"
 #include "rviz/textures/bark_texture.h"
+#include "rviz/textures/grain_texture.h"
 #include "rviz/textures/leaf_atlas.h"
 #include "rviz/textures/sky_texture.h"
 #include "tree/mesh/bark_mesh.h"

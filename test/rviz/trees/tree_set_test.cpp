@@ -9,6 +9,7 @@
 
 #include "rviz/ground/ground_texture.h"
 #include "rviz/ground/shadow_painter.h"
+#include "rviz/textures/grain_texture.h"
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::view {
@@ -263,9 +264,11 @@ TEST(GroundPicture, BareTreesThrowThinShadows) {
 
 TEST(GrainPicture, HasAMeanOfOneHalf) {
   const Image grain = grainPicture(128);
-  double sum = 0.0;
-  for (const Rgba& pixel : grain.pixels) sum += static_cast<double>(pixel[0]) / (128 * 128);
-  EXPECT_NEAR(sum, 0.5, 1e-4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    double sum = 0.0;
+    for (const Rgba& pixel : grain.pixels) sum += static_cast<double>(pixel[i]) / (128 * 128);
+    EXPECT_NEAR(sum, 0.5, 1e-4) << i;
+  }
 }
 
 }  // namespace
