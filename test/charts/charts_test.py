@@ -4,6 +4,7 @@
 """Tests the program charts: its files, its errors and its rules for drawing."""
 import os
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -21,6 +22,7 @@ import direct_values  # noqa: E402
 from charting import registry, stamp, style, tables  # noqa: E402
 from charting.chart import RequestError  # noqa: E402
 
+PER_UNIT = {None: 1.0, '%': 100.0, 'mm': 1e3, 'pixel': 1.0}  # of errors
 LADDER = 'ladder,tier,setting,cost,error,chosen\n'
 
 
@@ -91,6 +93,32 @@ class Charts(unittest.TestCase):
         damaged[0]['y'] *= 1.01
         with self.assertRaises(AssertionError):
             direct_values.check_step_limits(self, damaged)
+
+    # N9: the points of a chart are the errors of its table, in the unit of their axis.
+    def test_errors_are_drawn_in_the_unit_of_their_axis(self):
+        checked = set()
+        for path in sorted((ROOT / 'docs/charts').glob('*.csv')):
+            chart = registry.all_charts()[path.stem]
+            rows = tables.read(path, chart.columns)
+            numbers = {value for row in rows for value in row.values() if isinstance(value, float)}
+            figure = chart.draw(rows)
+            self.addCleanup(style.plt.close, figure)
+            for axes in figure.axes:
+                quantity = re.search(r'(error|distance|displacement)[^[]*(\[(%|\w+))?',
+                                     axes.get_ylabel())
+                if quantity:
+                    checked.add(path.stem)
+                    self.check_points(axes, numbers, PER_UNIT[quantity.group(3)], path.stem)
+        self.assertGreaterEqual(len(checked), 9, checked)
+
+    def check_points(self, axes, numbers, factor, name):
+        """Checks that all points are `factor` times a number of the table, but for those at the
+        bottom, where some charts draw smaller errors. Lines without markers are guides."""
+        drawn = [y for line in axes.lines if line.get_marker() != 'None' for y in line.get_ydata()]
+        wanted = {'%.9g' % (factor * number) for number in numbers}
+        self.assertGreater(len(drawn), 3, name)
+        others = [y for y in drawn if y > min(drawn) and '%.9g' % y not in wanted]
+        self.assertEqual(others, [], '%s: %s' % (name, axes.get_ylabel()))
 
     def test_errors_name_unknown_charts(self):
         done = run(PROGRAM, '--only', 'grass_ladder,no_such', '--out', self.out)

@@ -171,7 +171,8 @@ TEST(ModalTree, LoadsChangeAsTheTreeBends) {
                               bent = bentLoads(tree, wood, modal, state.amplitude, air);
     std::vector<double> published(modal.size(), 0.0);
     ModalAir kept;
-    modal.bendLevers(modal.leverAir(modal.airOn(wind), state.rate), state.amplitude, kept, published);
+    modal.bendLevers(modal.leverAir(modal.airOn(wind), state.rate), state.amplitude, kept,
+                     published);
     double off = 0.0, size = 0.0;
     for (std::size_t m = 0; m < published.size(); ++m) {
       const double change = bent[m] - rest[m];

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -79,6 +80,36 @@ INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioFiles, testing::ValuesIn(scenarios()),
 
 TEST(ShippedScenarios, AreFound) {
   EXPECT_GE(scenarios().size(), 19u);
+}
+
+std::string fileOf(const char* name) {
+  return std::string(PACKAGE_FOLDER "/config/scenarios/") + name + ".yaml";
+}
+
+// N11: added mass and drag of the kelp are those of sea water, of 1020 to 1030 kg/m^3.
+TEST(ShippedScenarios, TheReefIsInSeaWater) {
+  const ForestScene scene = loadForestScene(fileOf("reef"));
+  ASSERT_FALSE(scene.layout.species.empty());
+  for (const forest::Species& species : scene.layout.species)
+    EXPECT_NEAR(species.fluid_density, 1025.0, 5.0) << species.name;
+}
+
+// S3-W6: clouds are puffs and not leaves.
+TEST(ShippedScenarios, CloudsAreSlicesOfPuffs) {
+  const CanopyScene scene = loadCanopyScene(fileOf("clouds"));
+  ASSERT_FALSE(scene.layout.kinds.empty());
+  for (const canopy::PlantKind& kind : scene.layout.kinds) {
+    EXPECT_EQ(kind.shape, canopy::PlantShape::SLICES) << kind.name;
+    EXPECT_EQ(kind.look, canopy::CellLook::PUFFS) << kind.name;
+  }
+}
+
+// S2-18: discs of dry grass drift below the clouds.
+TEST(ShippedScenarios, DiscsOfColourMoveBelowTheClouds) {
+  const GrassScene scene = loadGrassScene(fileOf("clouds"));
+  EXPECT_FALSE(scene.colours.empty());
+  for (const grass::ColourMask& disc : scene.colours)
+    EXPECT_GT(std::hypot(disc.velocity.x, disc.velocity.y), 0.1) << disc.centre.x;
 }
 
 }  // namespace
