@@ -20,9 +20,9 @@ constexpr int ROWS = 3;                // of strips in a tile, each way
 constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
 constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
 constexpr double LEAVING = 0.5;        // part of the blades that become narrower
-constexpr double SIBLINGS_FADE = 8.0, SIBLINGS_END = 18.0;  // [m] where siblings narrow to nothing
-constexpr double NARROWEST_SIBLING = 0.05;                  // factor of the width
-constexpr double SIBLING_SPREAD = 0.6;                      // per distance of neighbours
+constexpr double SIBLINGS_FADE = 3.0, SIBLINGS_END = 7.0;  // [m] where siblings narrow to nothing
+constexpr double NARROWEST_SIBLING = 0.05;                 // factor of the width
+constexpr double SIBLING_SPREAD = 0.6;                     // per distance of neighbours
 
 // Painted once per process.
 const std::vector<Image>& sharedStrips() {
@@ -219,15 +219,18 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   style.variety = options.variety;
   const double broad = style.width;
   const double siblings = siblingShare(broad, levels_.map().law(), view, eye);
-  const double beside = siblings * std::min(broad / 3.0, 0.5 * (broad - 1.0));
-  style.width = beside > NARROWEST_SIBLING ? broad - 2.0 * beside : broad;
+  const double beside = siblings * std::min(broad / 2.0, broad - 1.0);
+  if (beside > NARROWEST_SIBLING) {
+    style.width = broad - beside;
+    style.segments = std::max(2, style.segments - 1);
+  }
   appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
   if (beside > NARROWEST_SIBLING) {
     style.width = beside;
-    style.segments = std::max(1, std::min(3, style.segments - 1));
+    style.segments = std::max(1, std::min(2, style.segments - 1));
     style.spread = SIBLING_SPREAD * tile.size / std::sqrt(std::max(1, count));
-    for (style.sibling = 1; style.sibling <= 2; ++style.sibling)
-      appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
+    style.sibling = 1;
+    appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
   }
   report_.blades += static_cast<std::size_t>(count);
   ++report_.bladed;

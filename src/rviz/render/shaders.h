@@ -107,19 +107,16 @@ void main() {
 )";
 
 // The ground's colours have their light in them. The second picture is its detail, mean one half:
-// colours of litter for brown ground, alpha of blades for green ground. It is drawn at two scales
-// of different directions, so that its repetition does not show. Near the eye, where plants are
-// drawn on it, the picture's alpha is the light that they leave.
+// colours of litter for brown ground, alpha of blades for green ground. Near the eye, where plants
+// are drawn on it, the picture's alpha is the light that they leave.
 constexpr const char* GROUND_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;
 uniform vec4 haze;
 varying vec4 light;
 varying vec4 place;
-varying vec2 broad;
 varying vec3 view;
 void main() {
   gl_Position = world_view_projection * gl_Vertex;
-  broad = vec2(dot(gl_Vertex.xy, vec2(0.0571, 0.0437)), dot(gl_Vertex.xy, vec2(-0.0437, 0.0571)));
   view = gl_Vertex.xyz - eye.xyz;
   float f = clamp((length(view) - haze.x) * haze.y, 0.0, 1.0);
   light = vec4(gl_Color.rgb, haze.z * f * (2.0 - f));
@@ -133,7 +130,6 @@ uniform vec4 haze_colour;
 uniform vec4 under;  // one over the square of how far it darkens [1/m2]
 varying vec4 light;
 varying vec4 place;
-varying vec2 broad;
 varying vec3 view;
 void main() {
   vec4 ground = texture2D(picture, place.xy);
@@ -143,7 +139,6 @@ void main() {
   float sum = paint.r + paint.g + paint.b;
   float green = clamp((18.0 * paint.g - 6.36 * sum) / (sum + 0.01), 0.0, 1.0);
   paint *= 2.0 * mix(fine.rgb, fine.aaa, green);
-  paint *= 0.4 + 1.2 * texture2D(grain, broad, 2.5).a;
   gl_FragColor = vec4(mix(paint, haze_colour.rgb, light.a), 1.0);
 }
 )";

@@ -19,7 +19,7 @@ constexpr std::array<Rgba, 7> LEAVES{{{0.42f, 0.31f, 0.20f, 1.f},
                                       {0.24f, 0.18f, 0.13f, 1.f},
                                       {0.48f, 0.40f, 0.29f, 1.f},
                                       {0.33f, 0.35f, 0.19f, 1.f}}};
-constexpr Rgba EARTH{0.20f, 0.16f, 0.12f, 1.f}, TWIG{0.47f, 0.40f, 0.32f, 1.f};
+constexpr Rgba EARTH{0.20f, 0.16f, 0.12f, 1.f}, FALLEN_TWIG{0.47f, 0.40f, 0.32f, 1.f};
 constexpr float CONTRAST = 0.8f, COLOUR = 0.5f;                              // of the litter
 constexpr int AREA_PER_LEAF = 75, AREA_PER_TWIG = 3000, AREA_PER_BLADE = 9;  // [pixel]
 
@@ -97,8 +97,8 @@ void paintTwig(const Random& own, Painter& out) {
     x += 0.5 * std::cos(angle);
     y += 0.5 * std::sin(angle);
     out.colour(x + 2.0, y - 2.0, EARTH, 0.3f);
-    out.colour(x, y, brighter(TWIG, light), 0.8f);
-    out.colour(x + 1.0, y, brighter(TWIG, 0.7f * light), 0.6f);
+    out.colour(x, y, brighter(FALLEN_TWIG, light), 0.8f);
+    out.colour(x + 1.0, y, brighter(FALLEN_TWIG, 0.7f * light), 0.6f);
   }
 }
 
