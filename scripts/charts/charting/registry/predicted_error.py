@@ -36,8 +36,8 @@ def draw(rows):
 
 SOURCES = ('src/tree', 'src/forest', 'scenes/forest/prediction_scene.h', 'bench/frame',
            'bench/governor_bench.cpp')
-ADVICE = ('Choose half the tolerance that a use requires: nearly all trees are then below the '
-          'error that is required, since predictions hold within a factor of 2. Kelp is the exception.')
+ADVICE = ('Choose the tolerance that a use requires: nearly all trees err less than predicted. Kelp in '
+          'water errs up to three times as much; trees beyond the tolerance need a larger budget.')
 CHART = Chart('predicted_error', 'predicted against measured errors of trees', ADVICE,
               'governor_bench', {'scenario': str, 'tree': float, 'model': str, 'predicted': float,
                                  'measured': float}, draw, SOURCES, sized('--part', 'scenarios'))
