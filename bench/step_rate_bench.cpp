@@ -12,6 +12,7 @@
 #include "options.h"
 #include "processor_time.h"
 #include "scenes/forest/physics_scene.h"
+#include "scenes/forest/step_surroundings.h"
 #include "table.h"
 
 namespace vegetation_sim::forest {
@@ -68,7 +69,7 @@ class WholeTree {
       if (load == "pushed") steps.add(push);
       scratch.windows.clear();
       const double start = bench::threadTime();
-      steps.run({contextAt(times.from), settings, bodies_, times}, scratch);
+      steps.run({surroundings_.at(rig_.forest, times.from), settings, bodies_, times}, scratch);
       out.seconds += bench::threadTime() - start;
       grab.last_target = grab.target;
       out.tips.push_back(tipsOf(subtree, times.to, scratch));
@@ -99,25 +100,10 @@ class WholeTree {
     return {rig_.grid.timeOf(rig_.tick + tick - 1), rig_.grid.timeOf(rig_.tick + tick),
             static_cast<std::size_t>(rate / TICK_RATE)};
   }
-  StepContext contextAt(Nanoseconds stamp) const {
-    const Forest& forest = rig_.forest;
-    return {forest.layout(),
-            forest.layoutHash(),
-            forest.terrain(),
-            forest.snapshot().wind,
-            forest.world().levels,
-            forest.world().modes,
-            contacts_,
-            forest.grid(),
-            threads_,
-            forest.owners(),
-            false,
-            stamp};
-  }
   std::vector<Vec3> tipsOf(const PhysicalSubtree& subtree, Nanoseconds stamp,
                            SubtreeScratch& scratch) const {
     physics::Kinematics& at = scratch.kinematics;
-    subtree.kinematicsAt(contextAt(stamp).windOf(0), stamp, scratch, at);
+    subtree.kinematicsAt(surroundings_.at(rig_.forest, stamp).windOf(0), stamp, scratch, at);
     std::vector<Vec3> out;
     for (std::size_t i = 0; i < at.pose.size(); ++i)
       out.push_back(
@@ -128,8 +114,7 @@ class WholeTree {
   PhysicsRig rig_;
   int branch_{0};
   Bodies bodies_;
-  ContactFinder contacts_;
-  mutable ThreadPool threads_;
+  StepSurroundings surroundings_;
 };
 
 /// Distances of all tips in all ticks [m].

@@ -47,20 +47,32 @@ class Prediction {
   };
   using Looks = std::map<std::uint32_t, std::vector<Look>>;  // by moving tree
 
-  /// Measures at every tick for some seconds, with the first of the settings.
-  Looks look(int seconds) { return lookWithAll(seconds)[0]; }
-  /// Does so with each of the settings.
+  /// Measures at every tick for some seconds, with the first of the settings, the trees whose tier
+  /// is chosen then.
+  Looks look(int seconds) {
+    Looks out;
+    for (int i = 0; i < RATE * seconds; ++i) {
+      run(1);
+      addLooks(*chosen_[0], poseExact(), out);
+    }
+    return out;
+  }
+  /// Measures all moving trees with each of the settings. Those whose tier is not chosen, since no
+  /// error is predicted for them, are on tier 0.
   std::vector<Looks> lookWithAll(int seconds) {
     std::vector<Looks> out(chosen_.size());
     for (int i = 0; i < RATE * seconds; ++i) {
       run(1);
       const PosesById right = poseExact();
-      for (std::size_t k = 0; k < chosen_.size(); ++k)
-        for (const Plant& plant : chosen_[k]->viewChoice().plants())
-          if (trees_.count(plant.id))
-            out[k][plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
-                                        measured(*chosen_[k], plant.id, right.at(plant.id)),
-                                        plant.chosen});
+      for (std::size_t k = 0; k < chosen_.size(); ++k) {
+        const Forest& forest = *chosen_[k];
+        addLooks(forest, right, out[k]);
+        for (const auto& [id, poses] : right) {
+          std::vector<Look>& looks = out[k][id];
+          if (looks.size() <= static_cast<std::size_t>(i))
+            looks.push_back({0.0, measured(forest, id, poses), 0});
+        }
+      }
     }
     return out;
   }
@@ -95,6 +107,12 @@ class Prediction {
         forest->advance(grid_.timeOf(tick_));
       }
     }
+  }
+  void addLooks(const Forest& forest, const PosesById& right, Looks& out) const {
+    for (const Plant& plant : forest.viewChoice().plants())
+      if (trees_.count(plant.id))
+        out[plant.id].push_back({plant.error[static_cast<std::size_t>(plant.chosen)],
+                                 measured(forest, plant.id, right.at(plant.id)), plant.chosen});
   }
   PosesById poseExact() const {
     PosesById out;

@@ -23,12 +23,6 @@ void solve(std::vector<double>& matrix, std::vector<double>& right) {
 
 }  // namespace
 
-std::vector<double> squaresOf(const Modes& modes) {
-  std::vector<double> out;
-  for (const double w : modes.frequency) out.push_back(w * w);
-  return out;
-}
-
 // With a = a0 + h/2 v and f the mean load, (1 + h/2 D + h^2/4 w^2) v = v0 + h/2 (f - w^2 a0) gives
 // the rate v in the middle of the step.
 void stepCoupled(const std::vector<double>& square, const std::vector<double>& damping,

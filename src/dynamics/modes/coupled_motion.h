@@ -8,9 +8,6 @@
 
 namespace vegetation_sim::physics {
 
-/// Returns w^2 of each oscillator [1/s^2].
-std::vector<double> squaresOf(const Modes& modes);
-
 /// Steps oscillators whose damping couples them, a'' + D a' + w^2 a = f, by the implicit midpoint
 /// rule, which is stable for steps of any length. @param[in] square w^2 [modes] [1/s^2],
 /// damping D [modes][modes], symmetric and positive semi-definite [1/s], before, after the modal

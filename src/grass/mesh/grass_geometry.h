@@ -38,7 +38,7 @@ struct RibbonStyle {
   /// Variation between blades in colour, length and lean; 1 is that of a meadow. Varied blades have
   /// seed heads, and their flowers stand in drifts.
   float variety{0.f};
-  /// 0: the blades themselves. 1, 2: varied copies that lean away from them.
+  /// 0: the blades themselves; above: varied copies that lean away from them.
   int sibling{0};
   double spread{0.0};  ///< largest distance of the roots of siblings along x or y [m]
 };

@@ -134,7 +134,7 @@ void paintBase(Image& out) {
   }
 }
 
-// Adds broad variation to the turf, which shows at the larger scale of the detail.
+// Adds broad variation to the turf.
 void varyBroadly(Image& out) {
   const Noise noise(GRAIN_SEED + 1);
   const float unit = static_cast<float>(Noise::PERIOD) / static_cast<float>(out.columns);

@@ -24,8 +24,7 @@ ModalTreeState::ModalTreeState(std::shared_ptr<const ModalTree> modes)
       batch_(std::make_shared<const physics::BatchModes>(modes_->modes())),
       stepper_(modes_->modes()),
       state_(stepper_.atRest()),
-      before_(state_),
-      square_(squaresOf(modes_->modes())) {}
+      before_(state_) {}
 
 void ModalTreeState::loadOf(const wind::Instant& wind, ModalLoad& out) {
   modes_->loadOf(wind, air_, out.force);
@@ -45,7 +44,7 @@ void ModalTreeState::finishStep(const ModalLoad& load, Nanoseconds stamp) {
   addLeverForces(load, state_, after_load_);
   if (modes_->hasQuadraticDrag()) {
     modes_->dampingIn(load.velocity, state_.rate, damping_);
-    coupledAccelerations(square_, damping_, state_, after_load_, acceleration_);
+    coupledAccelerations(stepper_.squares(), damping_, state_, after_load_, acceleration_);
   } else {
     stepper_.accelerations(state_, after_load_, acceleration_);
   }
@@ -85,7 +84,7 @@ void ModalTreeState::stepOnce(const ModalLoad& from, const ModalLoad& to, double
   const bool coupled = modes_->hasQuadraticDrag();
   const auto advance = [&](physics::ModalState& state) {
     if (coupled)
-      stepCoupled(square_, damping_, before_load_, after_load_, h, state);
+      stepCoupled(stepper_.squares(), damping_, before_load_, after_load_, h, state);
     else
       stepper_.step(before_load_, after_load_, h, state);
   };

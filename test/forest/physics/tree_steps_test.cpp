@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenes/forest/physics_scene.h"
+#include "scenes/forest/step_surroundings.h"
 
 namespace vegetation_sim::forest {
 namespace {
@@ -151,18 +152,7 @@ class WholeTree {
   std::size_t stepsWith(const PhysicsSettings& settings, bool pushed) {
     const Forest& forest = rig_.forest;
     const Nanoseconds now = rig_.now();
-    const StepContext context{forest.layout(),
-                              forest.layoutHash(),
-                              forest.terrain(),
-                              forest.snapshot().wind,
-                              forest.world().levels,
-                              forest.world().modes,
-                              contacts_,
-                              forest.grid(),
-                              threads_,
-                              forest.owners(),
-                              false,
-                              now};
+    const StepContext context = surroundings_.at(forest, now);
     PhysicalSubtree subtree = forest.snapshot().physics.subtrees().at(0);
     TreeSteps steps(0, subtree);
     if (pushed) steps.add(touch_);
@@ -174,8 +164,7 @@ class WholeTree {
   PhysicsRig rig_;
   Push touch_;
   Bodies bodies_;
-  ContactFinder contacts_;
-  ThreadPool threads_;
+  StepSurroundings surroundings_;
 };
 
 // Two seconds after the last load a tree takes a quarter of the steps, with the implicit method

@@ -37,6 +37,7 @@ class ModalStepper {
   explicit ModalStepper(const Modes& modes);
 
   std::size_t size() const { return square_.size(); }
+  const std::vector<double>& squares() const { return square_; }  ///< w^2 [modes] [1/s^2]
   ModalState atRest() const;
   /// @param[in] before, after are the modal loads [modes] at the start and the end of the step.
   void step(const std::vector<double>& before, const std::vector<double>& after, double h,

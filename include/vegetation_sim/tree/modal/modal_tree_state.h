@@ -78,7 +78,7 @@ class ModalTreeState {
   ModalAir air_;               // cache that follows from the wind
   physics::ModalState trial_;  // scratch
   std::vector<double> before_load_, after_load_;
-  std::vector<double> square_, damping_;  // for quadratic drag: w^2, and scratch
+  std::vector<double> damping_;  // scratch, for quadratic drag
   Nanoseconds stamp_{0}, before_stamp_{0};
 };
 
