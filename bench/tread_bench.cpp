@@ -193,7 +193,7 @@ void benchSource(const Options& options, const Source& source, bench::Table& tab
     std::printf("%-7s %7.4f m %8.2f us a step %8.2f kB/m2 %6.1f mm high %6.1f mm %6.1f %% wrong\n",
                 source.name.c_str(), spacing, 1e6 * step, memory, 1e3 * height, 1e3 * off,
                 100.0 * wrong);
-    table.row(source.name, spacing, 1e6 * step, memory, 1e3 * height, 1e3 * off, wrong,
+    table.row(source.name, spacing, 1e6 * step, memory, height, off, wrong,
               int(std::fabs(spacing - TreadSettings().spacing) < 1e-9));
   }
 }
@@ -205,8 +205,7 @@ int main(int argc, char** argv) {
   try {
     using namespace vegetation_sim;
     const bench::Options options = bench::readOptions(argc, argv, {"walker", "wheel"});
-    bench::Table table(options.csv,
-                       "source,spacing,step_us,memory_kb,height_mm,tip_mm,wrong,chosen");
+    bench::Table table(options.csv, "source,spacing,step_us,memory_kb,height,tip,wrong,chosen");
     for (const grass::Source& source : grass::sources())
       if (options.wants(source.name)) grass::benchSource(options, source, table);
   } catch (const std::exception& error) {

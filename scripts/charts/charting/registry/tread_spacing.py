@@ -6,7 +6,7 @@ from charting.chart import Chart
 from charting.tables import groups
 
 COLUMNS = {'source': str, 'spacing': float, 'step_us': float, 'memory_kb': float,
-           'height_mm': float, 'tip_mm': float, 'wrong': float, 'chosen': float}
+           'height': float, 'tip': float, 'wrong': float, 'chosen': float}
 NAMES = {'walker': 'walker, crushes a track of 32 cm', 'wheel': 'wheel, crushes a track of 20 cm'}
 COSTS = {'step_us': 'processor time of a step of 1/60 s [µs]',
          'memory_kb': 'memory of trodden ground [kB/m²]'}
@@ -18,9 +18,9 @@ def setting(row):
 
 def draw_cost(axes, rows, cost):
     """Draws the error against one cost, a curve for each source."""
-    points = [(row, row[cost], row.height_mm) for row in rows]
+    points = [(row, row[cost], 1e3 * row.height) for row in rows]
     for number, (source, own) in enumerate(groups(rows, 'source').items()):
-        axes.loglog([row[cost] for row in own], [row.height_mm for row in own], '-',
+        axes.loglog([row[cost] for row in own], [1e3 * row.height for row in own], '-',
                     marker=style.MARKERS[number], color=style.COLOURS[number],
                     label=NAMES[source])
     for row, x, y in points:
