@@ -65,8 +65,7 @@ constexpr double STEP = 1.0 / 60.0;  // [s] of the clock, at most
 constexpr double STEP_TIME = 0.01;   // [s] of wall time, at least, in which robots move on
 constexpr double TICK = 1.0 / 15.0;  // [s] that a topic may be behind the clock
 constexpr double PATIENCE = 60.0;    // [s] of wall time for a message
-constexpr double CLOSE = 2.0;        // [s] before the first picture, from which everything is drawn
-constexpr int SETTLING = 60;         // frames in which displays finish their geometry
+constexpr int SETTLING = 60;         // updates in which displays finish their geometry
 constexpr int FRAMES_A_PICTURE = 3;  // frames until new messages are drawn
 constexpr int OVERSAMPLING = 2;
 
@@ -133,19 +132,16 @@ class Film {
     return true;
   }
 
-  /// Advances from the start to shortly before the first picture, without many frames.
+  /// Advances from the start to the first picture. Displays are updated, but nothing is drawn,
+  /// which would take most of the time.
   bool approach(double time) {
     if (!connect()) return false;
-    view_.limitRate(1);
-    for (double at = BEGIN; at < time - CLOSE; at += 0.1)
+    view_.window().setAutoUpdated(false);
+    for (double at = BEGIN; at < time; at += 0.1)
       if (!advanceTo(at)) return false;
-    view_.limitRate(1000);
-    for (double at = std::max(BEGIN, time - CLOSE); at < time; at += 0.1) {
-      if (!advanceTo(at)) return false;
-      view_.drawFrames(1);
-    }
     if (!advanceTo(time)) return false;
     view_.drawFrames(SETTLING);
+    view_.window().setAutoUpdated(true);
     return true;
   }
 

@@ -62,8 +62,10 @@ void collectBoxes(const rviz::DisplayGroup& group, Ogre::SceneNode& node,
     if (!display->isEnabled()) continue;
     if (const rviz::DisplayGroup* inner = group.getGroupAt(i)) collectBoxes(*inner, node, out);
     const QString kind = display->getClassId();
-    if (kind == "rviz/RobotModel" || kind == "rviz/Marker" || kind == "rviz/MarkerArray")
-      collectBoxes(*display->getSceneNode(), node, out);
+    if (kind != "rviz/RobotModel" && kind != "rviz/Marker" && kind != "rviz/MarkerArray") continue;
+    Ogre::SceneNode& shown = *display->getSceneNode();
+    shown._update(true, false);  // Otherwise, places inside would be those of the last frame.
+    collectBoxes(shown, node, out);
   }
 }
 
