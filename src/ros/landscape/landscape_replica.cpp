@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/landscape/landscape_replica.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
 namespace vegetation_sim {
 namespace {
-
-constexpr double LONGEST_EXTRAPOLATION = 0.25;  // [s] for which people go on as they went
 
 ReplicaOptions delayed(ReplicaOptions options) {
   options.delayed = true;
@@ -138,13 +135,10 @@ void LandscapeReplica::choosePeople(const Vec3& centre, double radius, Nanosecon
 // A sweep lies between two ticks of the crowd.
 std::vector<scan::People::Person> LandscapeReplica::peopleAt(Nanoseconds stamp) const {
   const Nanoseconds seen = people_.isNear() ? near_crowd_.stamp() : crowd_.stamp();
-  const double since = std::clamp(secondsBetween(seen, stamp), 0.0, LONGEST_EXTRAPOLATION);
   const auto terrain = ground();
   std::vector<scan::People::Person> out;
   for (const WalkerView& person : nearest()) {
-    crowd::Walker walker = person.walker;
-    walker.position = walker.position + since * walker.velocity;
-    crowd::advanceGait(since * crowd::speedOf(walker), walker);
+    const crowd::Walker walker = walkOn(person.walker, secondsBetween(seen, stamp));
     out.push_back({walker.id, crowd::skeletonOf(walker, *terrain, crowd_.motions(),
                                                 secondsBetween(0, stamp))});
   }

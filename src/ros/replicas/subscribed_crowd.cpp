@@ -5,9 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowd/body/gait.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim {
+namespace {
+
+constexpr double LONGEST_EXTRAPOLATION = 0.25;  // [s]
+
+}  // namespace
+
+crowd::Walker walkOn(crowd::Walker walker, double seconds) {
+  const double since = std::clamp(seconds, 0.0, LONGEST_EXTRAPOLATION);
+  walker.position = walker.position + since * walker.velocity;
+  crowd::advanceGait(since * crowd::speedOf(walker), walker);
+  return walker;
+}
 
 void SubscribedCrowd::subscribe(ros::NodeHandle handle, const std::string& topic) {
   status_ = {false, "No people on " + handle.resolveName(topic)};

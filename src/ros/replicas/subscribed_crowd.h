@@ -15,6 +15,10 @@
 
 namespace vegetation_sim {
 
+/// Returns a walker some seconds after the stamp of its message. It goes on as it went, at most for
+/// 0.25 s.
+crowd::Walker walkOn(crowd::Walker walker, double seconds);
+
 /// The people of another node.
 class SubscribedCrowd : public SubscribedReplica<AgentStates> {
  public:
