@@ -48,6 +48,10 @@ if(fcl_library AND ccd_library)
   message(STATUS "crowd_bench measures fcl")
 endif()
 
+# state_bench, with the messages and the replicas of nodes.
+target_include_directories(state_bench SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(state_bench PRIVATE ${PROJECT_NAME}_ros ${catkin_LIBRARIES})
+
 # Measures everything and draws it: build the target `charts`; scripts/charts has the program.
 add_custom_target(charts
   COMMAND ${CMAKE_COMMAND} -E env CMAKE_PREFIX_PATH=${CATKIN_DEVEL_PREFIX}
