@@ -25,7 +25,8 @@ def draw_part(axes, rows):
             if row.chosen:
                 style.ring(axes, x, 1e3 * row.high, 'default' if number == 0 else '')
             elif topic != 'forest/view':
-                style.note(axes, x, 1e3 * row.high, '%g' % row.rate)
+                beside = {'offset': (-6, -10), 'ha': 'right'} if topic == 'agents/view' else {}
+                style.note(axes, x, 1e3 * row.high, '%g' % row.rate, **beside)
     axes.margins(x=0.12)
     style.label(axes, 'messages [kB/s]', 'error of %s, 99 %% [mm]' % NAMES[rows[0].part],
                 '%s (numbers: Hz; dotted: largest)' % TITLES[rows[0].part])
@@ -42,9 +43,9 @@ def draw(rows):
 
 SOURCES = ('src/ros/conversions', 'src/ros/replicas', 'src/forest', 'src/tree', 'src/crowd',
            'scenes/forest', 'bench/state_bench.cpp')
-ADVICE = ('Leave 30 Hz (default), or choose 60 Hz where people in displays, who stand still between '
-          'messages, are watched closely: half as many messages make errors two to four times as '
-          'large. Leave displays on agents/view, an eighth of the bytes of agents for the same '
-          'error.')
+ADVICE = ('Leave 30 Hz (default), or choose 60 Hz where people in displays, who stand still '
+          'between messages, are watched closely: half as many messages make errors two to four '
+          'times as large. Leave displays on agents/view, an eighth of the bytes of agents for the '
+          'same error.')
 CHART = Chart('state_bytes', 'error and bytes of messages of state by their rate', ADVICE,
               'state_bench', COLUMNS, draw, SOURCES)
