@@ -31,8 +31,9 @@ constexpr Curve<4> ELBOW{{{0, 18}, {25, 26}, {50, 38}, {75, 28}}};
 
 constexpr double RADIANS = PI / 180.0;
 constexpr double SHORTEST = 0.02;  ///< least speed that has a stride [m/s]
-/// Distance from below the hip from which on it is placed again, relative to the height.
-constexpr double FARTHEST_FOOT = 0.42;
+/// Distances from below the hip, and from the place by the gait, from which on a foot is placed
+/// again, relative to the height.
+constexpr double FARTHEST_FOOT = 0.42, FARTHEST_OFF = 0.2;
 
 double fractionOf(double cycles) {
   return cycles - std::floor(cycles);
@@ -102,8 +103,10 @@ void setFoot(Walker& w, int index, bool struck) {
   Foot& foot = w.feet[static_cast<std::size_t>(index)];
   const bool stands = footPhase(w, index) < STANCE;
   if (stands) {
-    const bool lost = length(foot.planted - w.position) > FARTHEST_FOOT * w.height;
-    if (struck || !foot.stands || lost) foot.planted = toWorld(w, gaitPlace(w, index));
+    const Point place = toWorld(w, gaitPlace(w, index));
+    const bool lost = length(foot.planted - w.position) > FARTHEST_FOOT * w.height ||
+                      length(foot.planted - place) > FARTHEST_OFF * w.height;
+    if (struck || !foot.stands || lost) foot.planted = place;
   } else if (foot.stands || struck) {
     foot.offset = toLocal(w, foot.planted) - gaitPlace(w, index);
     if (length(foot.offset) > FARTHEST_FOOT * w.height) foot.offset = Point();

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
+#include "crowd/agents/crowd_scene.h"
+#include "scenes/crowd/crowd_scenes.h"
 #include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::crowd {
@@ -110,6 +113,23 @@ TEST(BodySkeleton, TrunksLeanIntoTheSlope) {
   EXPECT_NEAR(leanOf(0.0, steep), upright + expected, 1e-6);
   EXPECT_NEAR(leanOf(PI, steep), upright - expected, 1e-6);
   EXPECT_NEAR(leanOf(0.5 * PI, steep), upright, 1e-6);
+}
+
+// Feet of people who turn, stop and give way stay near below them, so that nobody squats down.
+TEST(BodySkeleton, WanderersStayUpright) {
+  Crowd crowd(1, {}, {-15, 15, -15, 15}, flatGround());
+  for (const Spawn& spawn : groupOf({}, 150, 15.0, 0.2, Random(1))) crowd.spawn(spawn);
+  double lowest = 1.0;
+  for (int tick = 1; tick <= 1200; ++tick) {
+    crowd.advance(fromSeconds(DT * tick));
+    for (const Walker& walker : crowd.walkers()) {
+      const Skeleton body = skeletonOf(walker, crowd.terrain());
+      const Limb& pelvis = limbOf(body, Part::PELVIS);
+      lowest = std::min(lowest, 0.5 * (pelvis.from.z() + pelvis.to.z()) / walker.height);
+    }
+  }
+  std::cout << "lowest pelvis: " << lowest << " of the height\n";
+  EXPECT_GT(lowest, 0.4);
 }
 
 }  // namespace
