@@ -3,7 +3,7 @@
 // Measures the messages of state by their rate: bytes a second, and the distance of what a replica
 // shows at any time from the truth, a run of 240 ticks a second. Of trees in a breeze that are
 // pulled and pushed, it is that of the tips of physical branches; of people, that of the ends of
-// their limbs. Sensors let people go on between messages, displays hold them.
+// their limbs.
 // usage: state_bench [--quick | --full] [--part NAME,..] [--csv FILE]
 //   parts: trees, people
 
@@ -240,11 +240,8 @@ class CrowdReader {
  private:
   crowd::Skeleton bodyAt(const crowd::Walker& walker, const terrain::HeightMap& terrain,
                          Nanoseconds stamp) const {
-    const Nanoseconds seen = replica_.stamp();
-    if (name_ == "display")
-      return skeletonOf(walker, terrain, replica_.motions(), secondsBetween(0, seen));
-    return skeletonOf(walkOn(walker, secondsBetween(seen, stamp)), terrain, replica_.motions(),
-                      secondsBetween(0, stamp));
+    return skeletonOf(walkOn(walker, secondsBetween(replica_.stamp(), stamp)), terrain,
+                      replica_.motions(), secondsBetween(0, stamp));
   }
 
   std::string topic_, name_;
@@ -266,7 +263,7 @@ void benchPeople(const bench::Options& options, bench::Table& table) {
   std::list<CrowdReader> readers;
   for (const int rate : RATES)
     for (const auto& [topic, name] : std::vector<std::pair<std::string, std::string>>{
-             {"agents", "sensor"}, {"agents", "display"}, {"agents/view", "display"}})
+             {"agents", "sensor"}, {"agents/view", "display"}})
       readers.emplace_back(topic, name, rate);
   const TickGrid grid(TRUTH_RATE);
   const std::int64_t first = grid.tickAt(forest::PHYSICS_START);

@@ -52,7 +52,7 @@ void CrowdDisplay::light(const view::Daylight& daylight, const view::Haze& haze)
 void CrowdDisplay::draw(Nanoseconds stamp, const view::View& view) {
   source_->selectTopic();
   source_->forgetUnchanged(stamp);
-  people_->update(*source_, terrain_source_->ground(), view, properties_->options());
+  people_->update(*source_, stamp, terrain_source_->ground(), view, properties_->options());
   if (!source_->people().empty() && givesGround(terrain_source_->ground())) makeGround();
 }
 

@@ -72,12 +72,14 @@ std::vector<const SubscribedCrowd::Person*> CrowdVisual::select(const Subscribed
   return out;
 }
 
-void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap& terrain,
-                         const View& view, const Options& options) {
-  if (drawn_ == crowd.changes() && length(eye_ - view.eye.position) < STILL &&
+void CrowdVisual::update(const SubscribedCrowd& crowd, Nanoseconds stamp,
+                         const terrain::HeightMap& terrain, const View& view,
+                         const Options& options) {
+  if (drawn_ == crowd.changes() && stamp_ == stamp && length(eye_ - view.eye.position) < STILL &&
       length(forward_ - view.forward) < STILL)
     return;
   drawn_ = crowd.changes();
+  stamp_ = stamp;
   frame_ = crowd.frame();
   eye_ = view.eye.position;
   forward_ = view.forward;
@@ -90,7 +92,10 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
   const std::vector<const Person*> people = select(crowd, view, options.most_people);
-  for (const Person* person : people) addPerson(*person, crowd, terrain, view, options);
+  for (const Person* person : people) {
+    const double since = secondsBetween(crowd.stamp(), stamp);
+    addPerson(extrapolatePerson(*person, terrain, since), crowd, terrain, view, options);
+  }
   bodies_.fill(body_mesh_);
   shadows_.fill(shadow_mesh_);
   contacts_.fill(std::move(blobs_), frame_, terrain);
@@ -101,13 +106,25 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, const terrain::HeightMap&
   ++report_.rebuilds;
 }
 
+// The message gives the height of the ground, which may differ from the terrain known here.
+CrowdVisual::Person CrowdVisual::extrapolatePerson(const Person& person,
+                                                   const terrain::HeightMap& terrain,
+                                                   double seconds) {
+  const auto heightBelow = [&](const crowd::Walker& walker) {
+    return terrain.height(walker.position.x, walker.position.y);
+  };
+  Person out = person;
+  out.walker = walkOn(person.walker, seconds);
+  out.ground += heightBelow(out.walker) - heightBelow(person.walker);
+  return out;
+}
+
 void CrowdVisual::addPerson(const Person& person, const SubscribedCrowd& crowd,
                             const terrain::HeightMap& terrain, const View& view,
                             const Options& options) {
   const crowd::Walker& walker = person.walker;
   crowd::Skeleton skeleton =
-      skeletonOf(walker, terrain, crowd.motions(), secondsBetween(0, crowd.stamp()));
-  // The message gives the height of the ground, which may differ from the terrain known here.
+      skeletonOf(walker, terrain, crowd.motions(), secondsBetween(0, stamp_));
   const double rise = person.ground - terrain.height(walker.position.x, walker.position.y);
   for (crowd::Limb& limb : skeleton) {
     limb.from.z() += rise;

@@ -40,9 +40,10 @@ class CrowdVisual {
   CrowdVisual(const CrowdVisual&) = delete;
   CrowdVisual& operator=(const CrowdVisual&) = delete;
 
-  /// Draws the people of the newest message, if anything has changed since the last call.
-  void update(const SubscribedCrowd& crowd, const terrain::HeightMap& terrain, const View& view,
-              const Options& options);
+  /// Draws the people of the newest message as they are at a stamp, if anything has changed since
+  /// the last call.
+  void update(const SubscribedCrowd& crowd, Nanoseconds stamp, const terrain::HeightMap& terrain,
+              const View& view, const Options& options);
   void light(const Daylight& daylight, const Haze& haze);
   /// Builds the meshes again at the next update.
   void repaint() { drawn_ = -1; }
@@ -53,6 +54,8 @@ class CrowdVisual {
   using Person = SubscribedCrowd::Person;
   std::vector<const Person*> select(const SubscribedCrowd& crowd, const View& view,
                                     std::size_t most) const;
+  static Person extrapolatePerson(const Person& person, const terrain::HeightMap& terrain,
+                                  double seconds);
   void addPerson(const Person& person, const SubscribedCrowd& crowd,
                  const terrain::HeightMap& terrain, const View& view, const Options& options);
   void addShadow(const Person& person, const terrain::HeightMap& terrain,
@@ -69,6 +72,7 @@ class CrowdVisual {
   std::vector<BlobShadow> blobs_;  // of contacts_, while they are collected
   Daylight daylight_;
   int drawn_{-1};  // SubscribedCrowd::changes()
+  Nanoseconds stamp_{0};
   std::string frame_;
   Vec3 eye_{Vec3::Zero()}, forward_{Vec3::Zero()};
   CrowdReport report_;
