@@ -1,10 +1,48 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Layers of leaves that are drawn as pictures.
+#include <OgreCamera.h>
+#include <OgreViewport.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+
 #include "rviz/rigs/canopy_display_fixture.h"
 
 namespace vegetation_sim {
 namespace {
+
+/// Returns a red plant straight in front of a green one, seen by rig.lookAt(3.5, 0, 12), in layers
+/// that are cut for this view. Neither has any blue.
+canopy::Layout redInFrontOfGreen() {
+  const double yaw = 0.8;  // of the view
+  const Vec3 to_eye(std::cos(yaw), std::sin(yaw), 0.0);
+  canopy::Layout out = CanopyRig::shrubs(2);
+  out.motion.plane.camera = 12.0 * to_eye;
+  out.motion.plane.yaw = yaw + M_PI;
+  out.motion.cuts.near_layers = out.motion.cuts.far_layers = 1;
+  out.motion.cuts.near_end = out.motion.cuts.mid_end = 11.5;
+  canopy::PlantKind& red = out.kinds[0];
+  red.stems = 0;
+  red.leaves = 5000;
+  red.height = 3.0;
+  red.radius = 1.5;
+  red.leaf_length = 0.08;
+  red.leaf_width = 0.04;
+  red.colour = red.colour_young = Vec3(0.8, 0.0, 0.0);
+  canopy::PlantKind& green = out.kinds[1] = red;
+  green.name = "green";
+  green.leaves = 20000;
+  green.height = 7.0;
+  green.radius = 4.0;
+  green.leaf_length = 0.4;
+  green.leaf_width = 0.2;
+  green.colour = green.colour_young = Vec3(0.0, 0.8, 0.0);
+  out.plants[0].position = 3.0 * to_eye + Vec3(0.0, 0.0, 2.0);
+  out.plants[1].position = -4.0 * to_eye;
+  return out;
+}
 
 class CanopyPicturesTest : public CanopyDisplayTest {
  protected:
@@ -39,6 +77,20 @@ class CanopyPicturesTest : public CanopyDisplayTest {
         << " leaves, renderings " << display->drawn().renderings;
     return steadyPicture(rig);
   }
+  /// Returns the shares of red pixels and of pixels with blue in the middle of a picture.
+  std::array<double, 2> redAndBlueIn(const std::vector<std::uint8_t>& picture) {
+    const auto width = static_cast<std::size_t>(rig.camera().getViewport()->getActualWidth());
+    const std::size_t rows = picture.size() / 3 / width;
+    double count = 0.0, red = 0.0, blue = 0.0;
+    for (std::size_t row = rows / 3; row < 2 * rows / 3; ++row)
+      for (std::size_t column = 3 * width / 8; column < 5 * width / 8; ++column) {
+        const std::uint8_t* pixel = &picture[3 * (row * width + column)];
+        count += 1.0;
+        red += pixel[0] > pixel[1];
+        blue += pixel[2] > 50;
+      }
+    return {red / count, blue / count};
+  }
 };
 
 // S3-07, S3-27: the pictures show the same plants as every leaf on its own, at rest and in wind.
@@ -51,6 +103,23 @@ TEST_F(CanopyPicturesTest, PicturesLookLikeTheirLeaves) {
   EXPECT_LT(difference(leaves, pictures), 0.5 * motion);
   EXPECT_LT(difference(moved_leaves, moved_pictures), motion);
   EXPECT_NEAR(difference(pictures, moved_pictures), motion, 0.3 * motion);
+}
+
+// S3-07: pictures are composed from back to front. In front of a green plant leaves of a red one
+// have no fringe of sky.
+TEST_F(CanopyPicturesTest, PicturesAreComposedFromBackToFront) {
+  rig.plant(redInFrontOfGreen());
+  rig.lookAt(3.5f, 0.0, 12.0);
+  rig.blow(60);  // leaves between pixels have edges that are partly transparent
+  ASSERT_TRUE(rig.until([&] { return display->drawn().plants == 2; }));
+  display->subProp("Tolerance")->setValue(0.1);  // every leaf
+  const std::array<double, 2> leaves = redAndBlueIn(seen(0.0)),
+                              pictures = redAndBlueIn(seen(100.0));
+  EXPECT_EQ(display->drawn().pictures, 2);
+  std::cout << "red and blue: leaves " << leaves[0] << ", " << leaves[1] << ", pictures "
+            << pictures[0] << ", " << pictures[1] << "\n";
+  EXPECT_NEAR(pictures[0], leaves[0], 0.1);
+  EXPECT_LT(pictures[1], leaves[1] + 0.02);
 }
 
 // S3-28, S3-W7: pictures stay on the graphics card: moving renders no leaves, another eye does.
