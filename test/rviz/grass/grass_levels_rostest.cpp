@@ -1,6 +1,10 @@
 // Copyright 2026 vegetation_sim developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Strips on the edges of tiles, and discs of colour at every level of detail.
+#include <OgreCamera.h>
+#include <OgreViewport.h>
+
+#include <array>
 #include <iostream>
 
 #include "rviz/rigs/grass_display_fixture.h"
@@ -163,6 +167,54 @@ double shareAtTheirPlaces(GrassRig& rig, GrassDisplay& display) {
   EXPECT_GT(display.drawn().stripped, 0u);
   EXPECT_GT(all, 100.0);
   return kept / all;
+}
+
+// Returns a meadow that is dense on the left of a view from the north-east and sparse on its right.
+grass::Layout denseBesideSparse() {
+  grass::Layout out = GrassRig::meadow(TILES);
+  grass::MapInput input = out.map->input();
+  input.species.resize(1);
+  input.density.white = 500.0;
+  input.density.image = {TILES + 1, TILES + 1, 16, {}};
+  for (int row = 0; row <= TILES; ++row)
+    for (int column = 0; column <= TILES; ++column)
+      input.density.image.samples.push_back(row + column > TILES ? 16 : 1);
+  out.map = std::make_shared<const grass::FeatureMap>(input);
+  return out;
+}
+
+// Returns how many pixels of the left and the right half show grass that is painted by level.
+std::array<double, 2> grassInHalves(GrassRig& rig) {
+  const std::vector<std::uint8_t> picture = rig.picture();
+  const auto width = static_cast<std::size_t>(rig.camera().getViewport()->getActualWidth());
+  std::array<double, 2> out{};
+  for (std::size_t i = 0; i < picture.size() / 3; ++i) {
+    const int red = picture[3 * i], green = picture[3 * i + 1], blue = picture[3 * i + 2];
+    out[2 * (i % width) / width] += std::max(red, blue) > green + 40;
+  }
+  return out;
+}
+
+// S2-10: where few blades grow, strips hide no more of the ground than single blades do.
+TEST_F(GrassDisplayTest, SparseStripsShowTheGroundBehindThem) {
+  setCamera(0.2, 14.0);
+  display->subProp("Colour by Level")->setValue(true);
+  display->subProp("Transition")->setValue(0.0);
+  rig.publishMeadow(denseBesideSparse(), 0.0);
+  double sparse_blades = 0.0;
+  for (const char* level : {"blades", "rows", "edges"}) {
+    const bool blades = level == std::string("blades");
+    display->subProp("Single Blades")->setValue(blades);
+    display->subProp("Strips")->setValue(!blades);
+    display->subProp("Strips on Edges")->setValue(level == std::string("edges"));
+    display->subProp("Tolerance")->setValue(blades ? 0.5 : 8.0);
+    rig.frames(60);
+    const auto [dense, sparse] = grassInHalves(rig);
+    std::cout << level << ": " << dense << " pixels of dense grass, " << sparse << " of sparse\n";
+    if (blades) sparse_blades = sparse;
+    EXPECT_GT(sparse, 100.0) << level;
+    EXPECT_LE(sparse, sparse_blades) << level;
+  }
 }
 
 // S2-12: where rows take over, blades become narrower at their places.
