@@ -216,8 +216,10 @@ void LayerImages::finish(double now) {
   ++renderings_;
   before_ = std::exchange(pictures_, std::exchange(coming_, {}));
   pictured_.assign(static_cast<std::size_t>(layers_), false);
+  // The layers may be cut for another eye, before which those far from it are near this one.
+  const bool turned = cut_.depthOf(frame_.eye - frame_.axes.out) < cut_.depthOf(frame_.eye);
   for (const auto& picture : pictures_) {
-    picture->finish();
+    picture->finish(turned ? picture->layer() : layers_ - 1 - picture->layer());
     pictured_[static_cast<std::size_t>(picture->layer())] = true;
   }
 }

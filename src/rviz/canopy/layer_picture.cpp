@@ -18,8 +18,9 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int LARGEST = 2048;       // [pixel] edge of a picture
-constexpr int LAST_PRIORITY = 200;  // beyond that of the sky
+constexpr int LARGEST = 2048;        // [pixel] edge of a picture
+constexpr int FIRST_PRIORITY = 101;  // beyond that of the sky
+constexpr int MOST_LAYERS = 99;
 
 }  // namespace
 
@@ -69,10 +70,13 @@ void LayerPicture::render() {
   empty_ = false;
 }
 
-void LayerPicture::finish() {
+void LayerPicture::finish(int layers_behind) {
   material_ = std::make_unique<Material>(Material::Kind::LAYER, uniqueName("layer_material"),
                                          std::vector<std::string>{texture_->name()});
   buildBatch();
+  // Back to front, after all opaque plants and the sky.
+  const int priority = FIRST_PRIORITY + std::min(layers_behind, MOST_LAYERS);
+  batch_->setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_4, static_cast<Ogre::ushort>(priority));
 }
 
 // Texture coordinates are those of the nodes at rest in the picture, times their depth: so the
@@ -99,9 +103,6 @@ void LayerPicture::buildBatch() {
           static_cast<float>(grid_.moved()[i][k] - origin_[k]);
   batch_ = std::make_unique<Batch>(uniqueName("layer_grid"), material_->name());
   batch_->build(positions_, paint, triangles, 1.f);
-  // Back to front, after all opaque plants and the sky.
-  batch_->setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_4,
-                                         static_cast<Ogre::ushort>(LAST_PRIORITY - layer_));
   node_->attachObject(batch_.get());
 }
 

@@ -44,8 +44,8 @@ class LayerPicture {
   void open(double pixels_per_radian, Ogre::Camera& camera);
   /// Adds to the picture what the camera sees, which must be leaves of this layer alone.
   void render();
-  /// Draws the picture from now on.
-  void finish();
+  /// Draws the picture from now on, in front of those of the layers behind it.
+  void finish(int layers_behind);
   int layer() const { return layer_; }
   const canopy::LayerGrid& grid() const { return grid_; }
   /// Moves the grid with the layer.
