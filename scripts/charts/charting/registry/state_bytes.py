@@ -43,9 +43,7 @@ def draw(rows):
 
 SOURCES = ('src/ros/conversions', 'src/ros/replicas', 'src/forest', 'src/tree', 'src/crowd',
            'scenes/forest', 'bench/state_bench.cpp')
-ADVICE = ('Leave 30 Hz (default), or choose 60 Hz where people in displays, who stand still '
-          'between messages, are watched closely: half as many messages make errors two to four '
-          'times as large. Leave displays on agents/view, an eighth of the bytes of agents for the '
-          'same error.')
+ADVICE = ('Leave 30 Hz (default): half as many messages make errors two to four times as large. Leave '
+          'displays on agents/view, an eighth of the bytes of agents for the same error.')
 CHART = Chart('state_bytes', 'error and bytes of messages of state by their rate', ADVICE,
               'state_bench', COLUMNS, draw, SOURCES)
