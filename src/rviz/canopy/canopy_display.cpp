@@ -97,8 +97,9 @@ void CanopyDisplay::makeContacts() {
   std::vector<view::BlobShadow> shadows;
   for (std::size_t i = 0; i < layout.plants.size() && shadows.size() < MOST_CONTACTS; ++i) {
     const canopy::Plant& plant = layout.plants[i];
-    if (canopy.cutHeight(i) < canopy::UNCUT) continue;
-    const double radius = PLANT_SHADOW * plant.scale * layout.kinds[plant.kind].radius;
+    const canopy::PlantKind& kind = layout.kinds[plant.kind];
+    if (kind.shape == canopy::PlantShape::TRELLIS || canopy.cutHeight(i) < canopy::UNCUT) continue;
+    const double radius = PLANT_SHADOW * plant.scale * kind.radius;
     // The feet are on the ground that the publisher knows, which may differ from that known here.
     Vec3 foot = plant.position;
     foot.z() = terrain_source_->ground().height(foot.x(), foot.y());
@@ -107,6 +108,7 @@ void CanopyDisplay::makeContacts() {
                                                 terrain_source_->ground()))
       shadows.push_back(*shadow);
   }
+  view::shareDarkness(shadows);
   contacts_ = std::make_unique<view::BlobVisual>(*scene_node_);
   contacts_->light(properties_->daylight(), properties_->hazeValues());
   contacts_->fill(std::move(shadows), source_->frame(), terrain_source_->ground());

@@ -94,6 +94,17 @@ std::optional<BlobShadow> sunShadow(const ShadowBox& box, const Vec3& to_sun, do
   return out;
 }
 
+void shareDarkness(std::vector<BlobShadow>& shadows) {
+  const std::vector<BlobShadow> all = shadows;
+  for (BlobShadow& shadow : shadows) {
+    const double reach = length(shadow.first);
+    const auto near = std::count_if(all.begin(), all.end(), [&](const BlobShadow& other) {
+      return length(other.centre - shadow.centre) < reach;
+    });
+    shadow.strength = 1.0 - std::pow(1.0 - shadow.strength, 1.0 / static_cast<double>(near));
+  }
+}
+
 double shadeAt(const BlobShadow& shadow, const Vec3& place) {
   const Vec3 &a = shadow.first, &b = shadow.second;
   const double area = a.x() * b.y() - a.y() * b.x();

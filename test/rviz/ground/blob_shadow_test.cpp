@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "package_folder.h"
 
@@ -53,6 +54,25 @@ TEST(BlobShadow, ShadesWhatStandsInIt) {
   const double above = shadeAt(shadow, shadow.centre + 0.2 * WEST_SUN);
   EXPECT_GT(above, 0.4);
   EXPECT_LT(shadeAt(shadow, shadow.centre + 0.2 * Vec3::UnitZ()), above);
+}
+
+// Rows of plants stand more closely than their shadows are wide.
+TEST(BlobShadow, ManyThatOverlapAreAsDarkAsOne) {
+  const terrain::HeightMap flat;
+  const BlobShadow one = *contactShadow(boxAt(0.1), 0.5, flat);
+  std::vector<BlobShadow> row(20, one), lone{one};
+  for (int i = 0; i < 20; ++i) row[static_cast<std::size_t>(i)].centre.x() += 0.1 * i;
+  shareDarkness(lone);
+  EXPECT_DOUBLE_EQ(lone[0].strength, 0.5);
+  const Vec3 middle = row[10].centre;
+  const auto lightIn = [&] {
+    double left = 1.0;
+    for (const BlobShadow& shadow : row) left *= 1.0 - shadeAt(shadow, middle);
+    return left;
+  };
+  EXPECT_LT(lightIn(), 0.25);
+  shareDarkness(row);
+  EXPECT_NEAR(lightIn(), 0.5, 0.15);
 }
 
 TEST(BlobShadow, FollowsTheSlopeOfTheGround) {
