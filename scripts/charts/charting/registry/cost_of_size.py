@@ -47,7 +47,7 @@ def draw(rows):
 
 
 SOURCES = ('src/tree', 'src/forest', 'src/grass', 'src/crowd', 'bench/size_bench.cpp')
-ADVICE = ('Plan with costs that are linear: at 60 Hz one core bears some 36 000 physical branches, '
-          '20 000 walkers or 80 000 cells of leaf fields with AVX2.')
+ADVICE = ('Plan with costs that are linear: at 60 Hz one core bears some 40 000 physical branches, '
+          '17 000 walkers or 80 000 cells of leaf fields with AVX2.')
 CHART = Chart('cost_of_size', 'cost over the number of trees, branches, blades, nodes', ADVICE,
               'size_bench', {'series': str, 'size': float, 'seconds': float}, draw, SOURCES)
