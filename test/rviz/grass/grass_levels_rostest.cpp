@@ -12,8 +12,8 @@
 namespace vegetation_sim {
 namespace {
 
-// S2-18: a disc that colours the grass is visible among blades, among strips and in the texture of
-// the ground alone, and it is gone with its message.
+// S2-18: a disc that colours the grass is visible in blades and in strips, which have no ground
+// here, and in the texture of the ground alone, and it is gone with its message.
 TEST_F(GrassDisplayTest, ShowsDiscsOfColourAtEveryLevel) {
   GrassColours dry;
   dry.header.frame_id = "map";
@@ -26,6 +26,7 @@ TEST_F(GrassDisplayTest, ShowsDiscsOfColourAtEveryLevel) {
     for (const bool strips : {true, false}) {
       display->subProp("Single Blades")->setValue(blades);
       display->subProp("Strips")->setValue(strips);
+      display->subProp("Ground")->setValue(!blades && !strips);
       dry.colours.clear();
       rig.publish(dry);
       rig.publishMeadow(GrassRig::meadow(TILES), 0.0);
@@ -37,6 +38,7 @@ TEST_F(GrassDisplayTest, ShowsDiscsOfColourAtEveryLevel) {
           << blades << strips << " green " << before.green << " and "
           << rig.imageStatistics().green;
     }
+  display->subProp("Ground")->setValue(true);
   dry.colours.clear();
   rig.publish(dry);
 }
