@@ -216,7 +216,7 @@ void LayerImages::finish(double now) {
   ++renderings_;
   before_ = std::exchange(pictures_, std::exchange(coming_, {}));
   pictured_.assign(static_cast<std::size_t>(layers_), false);
-  // The layers may be cut for another eye, before which those far from it are near this one.
+  // The layers may be cut for an eye on the other side, so that its last layer is the first here.
   const bool turned = cut_.depthOf(frame_.eye - frame_.axes.out) < cut_.depthOf(frame_.eye);
   for (const auto& picture : pictures_) {
     picture->finish(turned ? picture->layer() : layers_ - 1 - picture->layer());

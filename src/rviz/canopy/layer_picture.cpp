@@ -20,7 +20,7 @@ namespace {
 
 constexpr int LARGEST = 2048;        // [pixel] edge of a picture
 constexpr int FIRST_PRIORITY = 101;  // beyond that of the sky
-constexpr int MOST_LAYERS = 99;
+constexpr int MOST_LAYERS = 99;      // that have priorities of their own
 
 }  // namespace
 

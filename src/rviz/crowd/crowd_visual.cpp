@@ -92,10 +92,9 @@ void CrowdVisual::update(const SubscribedCrowd& crowd, Nanoseconds stamp,
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
                      static_cast<float>(origin.z()));
   const std::vector<const Person*> people = select(crowd, view, options.most_people);
-  for (const Person* person : people) {
-    const double since = secondsBetween(crowd.stamp(), stamp);
+  const double since = secondsBetween(crowd.stamp(), stamp);
+  for (const Person* person : people)
     addPerson(extrapolatePerson(*person, terrain, since), crowd, terrain, view, options);
-  }
   bodies_.fill(body_mesh_);
   shadows_.fill(shadow_mesh_);
   contacts_.fill(std::move(blobs_), frame_, terrain);

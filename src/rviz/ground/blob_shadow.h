@@ -37,7 +37,8 @@ std::optional<BlobShadow> contactShadow(const ShadowBox& box, double strength,
 std::optional<BlobShadow> sunShadow(const ShadowBox& box, const Vec3& to_sun, double strength,
                                     const terrain::HeightMap& terrain);
 
-/// Weakens shadows that overlap, so that together they are about as dark as one.
+/// Weakens shadows that overlap, so that together they are about as dark as one. The time
+/// is quadratic in their number.
 void shareDarkness(std::vector<BlobShadow>& shadows);
 
 /// Returns the share of light that a shadow takes at a place above the ground.

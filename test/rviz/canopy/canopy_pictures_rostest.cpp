@@ -23,22 +23,21 @@ canopy::Layout redInFrontOfGreen(bool turned) {
   out.motion.plane.yaw = turned ? yaw : yaw + M_PI;
   out.motion.cuts.near_layers = out.motion.cuts.far_layers = 1;
   out.motion.cuts.near_end = out.motion.cuts.mid_end = 11.5;
-  canopy::PlantKind& red = out.kinds[0];
-  red.stems = 0;
-  red.leaves = 5000;
-  red.height = 3.0;
-  red.radius = 1.5;
-  red.leaf_length = 0.08;
-  red.leaf_width = 0.04;
-  red.colour = red.colour_young = Vec3(0.8, 0.0, 0.0);
-  canopy::PlantKind& green = out.kinds[1] = red;
-  green.name = "green";
-  green.leaves = 20000;
-  green.height = 7.0;
-  green.radius = 4.0;
-  green.leaf_length = 0.4;
-  green.leaf_width = 0.2;
-  green.colour = green.colour_young = Vec3(0.0, 0.8, 0.0);
+  const auto leafyKind = [&](const char* name, int leaves, double radius, double leaf,
+                             const Vec3& colour) {
+    canopy::PlantKind kind = out.kinds[0];
+    kind.name = name;
+    kind.stems = 0;
+    kind.leaves = leaves;
+    kind.height = 2.0 * radius;
+    kind.radius = radius;
+    kind.leaf_length = leaf;
+    kind.leaf_width = 0.5 * leaf;
+    kind.colour = kind.colour_young = colour;
+    return kind;
+  };
+  out.kinds = {leafyKind("red", 5000, 1.5, 0.08, Vec3(0.8, 0.0, 0.0)),
+               leafyKind("green", 20000, 4.0, 0.4, Vec3(0.0, 0.8, 0.0))};
   out.plants[0].position = 3.0 * to_eye + Vec3(0.0, 0.0, 2.0);
   out.plants[1].position = -4.0 * to_eye;
   return out;

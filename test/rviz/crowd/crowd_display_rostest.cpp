@@ -236,6 +236,14 @@ TEST_F(CrowdDisplayTest, PeopleWalk) {
   EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }));
 }
 
+TEST_F(CrowdDisplayTest, PeopleWalkOnBetweenMessages) {
+  rig.walk(1.0);
+  const std::vector<std::uint8_t> before = steadyPicture(rig);
+  rig.setTime(rig.now() + 0.2);  // without a message
+  EXPECT_TRUE(rig.until([&] { return difference(before, rig.picture()) > 0.3; }))
+      << difference(before, rig.picture());
+}
+
 // S2-35: people who stand hold their arms as the styles of the node say.
 TEST_F(CrowdDisplayTest, BodiesHaveTheStylesOfTheNode) {
   const std::vector<std::uint8_t> own = steadyPicture(rig);
