@@ -135,7 +135,7 @@ void appendShadow(const BlobShadow& shadow, const terrain::HeightMap& terrain,
       const Vec3 local = at - mesh.origin;
       for (int k = 0; k < 3; ++k) mesh.positions.push_back(static_cast<float>(local[k]));
       mesh.texture.insert(mesh.texture.end(), {static_cast<float>(u), static_cast<float>(v)});
-      mesh.colours.insert(mesh.colours.end(), {8, 10, 8, alpha});
+      mesh.colours.insert(mesh.colours.end(), {0, 0, 0, alpha});
       if (r == cells || c == cells) continue;
       const auto a = base + static_cast<std::uint32_t>(r * (cells + 1) + c);
       const std::uint32_t b = a + static_cast<std::uint32_t>(cells) + 1;
