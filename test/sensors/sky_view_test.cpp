@@ -209,6 +209,27 @@ TEST(SkyView, PlantsOfACanopyBlock) {
   EXPECT_LT(viewSky(scene, place, SKY_REACH, one_thread).open_share, 0.9);
 }
 
+// A row of upright twigs with leaves, as those of a tree in leaf.
+TEST(SkyView, LeafedCrownsOfTreesBlock) {
+  canopy::Layout layout = groveLayout();
+  layout.kinds[2].leaves = 2500;
+  std::vector<canopy::Twig> twigs(5);
+  std::vector<Pose> wood;
+  for (std::size_t i = 0; i < twigs.size(); ++i) {
+    twigs[i].pose.position = Vec3(0.4 * static_cast<double>(i), 0.0, 1.0);
+    twigs[i].length = 1.5;
+    twigs[i].share = 1.0;
+    wood.push_back(twigs[i].pose);
+  }
+  const std::vector<canopy::CrownLeaf> leaves = growCrown(layout.kinds[2], 3, twigs);
+  Scene scene;
+  scene.crowns.update({{0, &leaves, &twigs, [&] { return wood; }}}, 1,
+                      Grove(layout, false).foliage(), Vec3::Zero(), one_thread);
+  const Vec3 place(0.8, 0.1, 0.02);
+  expectAsCounted(scene, place, "under leafed twigs", 0.045);
+  EXPECT_LT(viewSky(scene, place, SKY_REACH, one_thread).open_share, 0.95);
+}
+
 // All rays begin in the same cell of the grass, so that counting needs several places.
 TEST(SkyView, InALawnIsWhatCountedRaysFind) {
   Scene scene;
