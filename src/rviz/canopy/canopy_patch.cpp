@@ -176,13 +176,13 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
   canopy::GrownPlant grown = canopy::grow(kind, p, height);
-  const bool is_whole = !(height < canopy::UNCUT);
   if (isRibbon(kind) && kind.shape != canopy::PlantShape::STALK)
-    finishRibbons(is_whole, grown.leaves);
+    finishRibbons(!(height < canopy::UNCUT), grown.leaves);
   const std::size_t count = grown.leaves.size();
   tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
   light_.push_back(lightAt(tops_.back()));
   const bool is_lit = light_.back().sun > 1.0 - SEEN && light_.back().sky > 1.0 - SEEN;
+  const bool is_whole = !(height < canopy::UNCUT);
   const Share share = isRead(kind) && is_whole && is_lit ? Share::ALIKE : Share::OTHERS;
   std::vector<std::pair<double, std::size_t>> sorted;
   for (std::size_t i = 0; i < count; ++i)
