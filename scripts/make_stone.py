@@ -152,5 +152,5 @@ if __name__ == '__main__':
     write_mesh()
     write_texture()
     # The light of rviz shines from the camera; the rest of the stone glows as if in skylight.
-    (FOLDER / 'stone.mtl').write_text('newmtl stone\nKd 0.36 0.35 0.33\nKe 0.25 0.25 0.24\n'
+    (FOLDER / 'stone.mtl').write_text('newmtl stone\nKd 0.36 0.35 0.33\nKe 0.30 0.30 0.29\n'
                                       'map_Kd stone.png\n')
