@@ -14,7 +14,7 @@ angular.z [rad/s], which turns that frame. It begins with the axes of the world.
 import math
 
 import rospy
-from geometry_msgs.msg import Point, Pose, TransformStamped, Twist
+from geometry_msgs.msg import Pose, TransformStamped, Twist
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from tf2_msgs.msg import TFMessage
 from vegetation_sim import Ground
@@ -24,9 +24,8 @@ from visualization_msgs.msg import (InteractiveMarker, InteractiveMarkerControl,
 RATE = 50.0  # [Hz]
 RADIUS = 0.45  # [m]
 WIDE, DEEP, PERIOD = 9.0, 5.0, 40.0  # Half axes of the curve [m] and time of one round [s].
-SIZES = (1.0, 0.88, 0.94)  # Diameters of the stone along its axes, relative to 2 RADIUS.
-ROUGHNESS = 0.12  # of the surface that is drawn, relative to RADIUS
-SPLITS = 3  # of each face of the octahedron from which the surface is made
+MESH = 'package://vegetation_sim/media/stone/stone.obj'  # of scripts/make_stone.py, with radius 1
+DRAWN = 1.08  # largest radius of the mesh, relative to RADIUS; its bumps sink into the ground
 MARKER_PERIOD = 1.0  # [s]
 TOP_SPEED = 3.0  # [m/s]
 TOP_TURN = 3.0  # [rad/s]
@@ -65,40 +64,6 @@ def check(topic, unit, low, high, **values):
         if not low <= value <= high:  # also for NaN
             raise ValueError('%s: %s = %g %s is not within %g to %g %s' % (
                 topic, name.replace('_', '.'), value, unit, low, high, unit))
-
-
-def waves(point, frequency):
-    """Returns a smooth function of a place within -1 to 1 that looks random."""
-    x, y, z = (frequency * part for part in point)
-    return (math.sin(1.7 * x + 2.3 * y + 0.4) + math.sin(2.1 * y - 1.3 * z + 1.9) +
-            math.sin(1.9 * z + 1.1 * x + 4.2)) / 3.0
-
-
-def unit(point):
-    length = math.sqrt(sum(part * part for part in point))
-    return tuple(part / length for part in point)
-
-
-def sphere_faces(splits):
-    """Returns the faces of a unit sphere, as three corners each, counterclockwise from outside."""
-    faces = []
-    for x, y, z in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)):
-        face = (x, 0, 0), (0, y, 0), (0, 0, z)
-        faces.append(face if x * y * z > 0 else face[::-1])
-    for _ in range(splits):
-        finer = []
-        for a, b, c in faces:
-            ab, bc, ca = (unit([i + j for i, j in zip(*edge)]) for edge in ((a, b), (b, c), (c, a)))
-            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-        faces = finer
-    return faces
-
-
-def surface_at(direction):
-    """Returns the point of the stone in a direction, within its ellipsoid."""
-    rough = 0.6 * waves(direction, 2.6) + 0.4 * waves(direction, 8.0)
-    reach = RADIUS * (1.0 - ROUGHNESS * (1.0 - rough))
-    return Point(*(reach * size * part for size, part in zip(SIZES, direction)))
 
 
 class RollingStone:
@@ -201,12 +166,10 @@ class RollingStone:
     @staticmethod
     def solid():
         """Returns the marker of the stone, which moves with its frame."""
-        out = Marker(ns='stone', type=Marker.TRIANGLE_LIST, frame_locked=True)
+        out = Marker(ns='stone', type=Marker.MESH_RESOURCE, frame_locked=True)
         out.header.frame_id, out.pose.orientation.w = 'stone', 1.0
-        out.scale.x = out.scale.y = out.scale.z = 1.0
-        # Faces of one colour are lit; rviz does not light those with colours of their own.
-        out.color.r, out.color.g, out.color.b, out.color.a = 0.46, 0.44, 0.41, 1.0
-        out.points = [surface_at(corner) for face in sphere_faces(SPLITS) for corner in face]
+        out.scale.x = out.scale.y = out.scale.z = DRAWN * RADIUS
+        out.mesh_resource, out.mesh_use_embedded_materials = MESH, True
         return out
 
     def handle(self):

@@ -9,7 +9,7 @@ launch arguments, scenarios, messages and services must be mentioned between bac
 or docs/; every message field must be explained in its message or there.
 Documentation to code: links, code and tests that are named must exist, and so must every
 long_word_with_underscore between backticks. A range "A to B" in a table must be the declared range.
-Each scenario has its rviz configuration.
+Each scenario has its rviz configuration. None draws the same plants or people twice.
 """
 import pathlib
 import re
@@ -23,6 +23,9 @@ FIELD = r'(?<!checker)(?<!\ba)\.(?:number|integer|vector|choice|text|flag|seed|i
 TOPIC = r'(?:advertise|subscribe)(?:<[\w:]+>)?\(\s*(?:shownTopic\()?"([\w/]+)"'
 SERVICE = r'(?:advertiseService|serve|serveShared)\(\s*"(\w+)"'
 KNOWN_TOOLS = {'catkin_make', 'catkin_tools', 'catkin_lint', 'robot_state_publisher'}
+# Faces that are drawn twice flicker.
+DRAWN_TWICE = {'CanopyDisplay': 'canopy/markers', 'CrowdDisplay': 'agents/markers',
+               'ForestDisplay': 'forest/markers'}
 # The conventions of the package explain these fields once for all messages.
 KNOWN_FIELDS = {'header', 'success', 'message', 'error_code'}
 
@@ -101,6 +104,10 @@ def check_scenarios():
         want(name, 'scenario', source)
         if 'rviz/%s.rviz' % name not in FILES:
             faults.append('%s: has no rviz/%s.rviz' % (source, name))
+    for name in files(r'rviz/.*\.rviz'):
+        for display, topic in DRAWN_TWICE.items():
+            if display in text(name) and topic in text(name):
+                faults.append('%s: %s and %s draw the same' % (name, display, topic))
 
 
 def check_links():

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rviz/canopy/ribbon_ends.h"
 #include "rviz/render/texture.h"
 #include "rviz/textures/foliage_texture.h"
 #include "vegetation_sim/core/math/math.h"
@@ -19,6 +20,7 @@ constexpr double WIDEST = 4.0;       // largest factor of the width of leaves
 constexpr double PUFF_SIZE = 2.4;    // of a puff relative to a leaf
 constexpr double CLOUD_LIGHT = 0.3;  // least share of sunlight in a cloud
 constexpr double MARGIN = 1.0;       // [m] around the bounding box
+constexpr double FOOT_LIGHT = 0.4;   // share of light at the foot of a ribbon in the ground
 constexpr double SEEN = 0.02;        // least change of the share of light that is drawn
 
 // Joined pieces have their own outline, others that of a texture.
@@ -67,6 +69,10 @@ void setColour(const Vec3& rgb, double sun, VertexPaint& paint) {
   for (int i = 0; i < 3; ++i)
     paint.colour[i] = static_cast<std::uint8_t>(255.0 * std::clamp(rgb[i], 0.0, 1.0));
   paint.colour[3] = static_cast<std::uint8_t>(255.0 * std::clamp(sun, 0.0, 1.0));
+}
+
+void darken(double light, VertexPaint& paint) {
+  for (int i = 0; i < 3; ++i) paint.colour[i] = static_cast<std::uint8_t>(light * paint.colour[i]);
 }
 
 // Returns two triangles for each leaf of four corners.
@@ -169,7 +175,9 @@ void CanopyPatch::setRank(int rank) {
 void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double height) {
   const canopy::Plant& p = layout.plants[plant];
   const canopy::PlantKind& kind = layout.kinds[p.kind];
-  const canopy::GrownPlant grown = canopy::grow(kind, p, height);
+  canopy::GrownPlant grown = canopy::grow(kind, p, height);
+  if (isRibbon(kind) && kind.shape != canopy::PlantShape::STALK)
+    finishRibbons(!(height < canopy::UNCUT), grown.leaves);
   const std::size_t count = grown.leaves.size();
   tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
   light_.push_back(lightAt(tops_.back()));
@@ -335,6 +343,8 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
     for (int corner = 0; corner < 4; ++corner) {
       const std::array<float, 2> place = placeOf(layout, drawn, corner);
       paint.push_back(own);
+      if (corner < 2 && drawn.cut == LeafCut::RIBBON && isFoot(drawn.leaf))
+        darken(FOOT_LIGHT, paint.back());
       paint.back().place[0] = place[0];
       paint.back().place[1] = place[1];
     }

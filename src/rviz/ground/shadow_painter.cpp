@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tree/mesh/bark_mesh.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -14,10 +15,18 @@ constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen 
 constexpr double WOOD_DEPTH = 1.5;   // of a ball of wood
 constexpr double WOOD_STEP = 0.15;   // [m] between such balls
 constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
+constexpr float DARKEST = 0.62f;     // alpha of a veil without sunlight
+constexpr double VEIL_BORDER = 0.1;  // share of the edge over which a veil fades out
 
 // Leaves hide the wood of the outer branches.
 int woodBalls(const forest::Branch& branch, bool leaves) {
   return branch.depth > 1 && leaves ? 0 : 1 + static_cast<int>(branch.length / WOOD_STEP);
+}
+
+// Returns the share of a veil that is left at a pixel of a row or column.
+float shareInside(int pixel, int edge) {
+  const double from_border = std::min(pixel + 0.5, edge - pixel - 0.5) / edge;
+  return static_cast<float>(smoothStep(from_border / VEIL_BORDER));
 }
 
 }  // namespace
@@ -101,6 +110,20 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set
   return castShadows(plot, edge, wholePlot(edge), terrain, to_sun, [&](const ShadowDrop& drop) {
     for (const auto& tree : tree_set.trees()) dropTree(*tree, {}, tree_set.hasLeaves(), 1.0, drop);
   });
+}
+
+Image veilPicture(const std::vector<float>& light, int edge, const Window& window) {
+  Image out(window.columns, window.rows, {1.f, 1.f, 1.f, 0.f});
+  std::vector<float> across;
+  for (int c = 0; c < window.columns; ++c) across.push_back(shareInside(window.column + c, edge));
+  for (int r = 0; r < window.rows; ++r) {
+    const float most = DARKEST * shareInside(window.row + r, edge);
+    for (int c = 0; c < window.columns; ++c)
+      out.at(c, window.rows - 1 - r)[3] =
+          most * across[static_cast<std::size_t>(c)] *
+          (1.f - light[static_cast<std::size_t>((window.row + r) * edge + window.column + c)]);
+  }
+  return out;
 }
 
 }  // namespace vegetation_sim::view

@@ -13,20 +13,7 @@ namespace {
 constexpr int EDGE = 1024;                // [pixel]
 constexpr double LIFT = 0.2, CELL = 2.0;  // [m] height above the ground; cell of the mesh
 constexpr int MOST_SHADOW_CELLS = 120;    // along an edge
-constexpr float DARKEST = 0.62f;          // alpha without sunlight
-
-constexpr double UPDATE_TIME = 3e-3;  // [s] of painting in one update
-
-/// Paints a window of the veil, north at the top. @param light of the plot, south first.
-Image veilPicture(const std::vector<float>& light, int edge, const Window& window) {
-  Image out(window.columns, window.rows, {1.f, 1.f, 1.f, 0.f});
-  for (int r = 0; r < window.rows; ++r)
-    for (int c = 0; c < window.columns; ++c)
-      out.at(c, window.rows - 1 - r)[3] =
-          DARKEST *
-          (1.f - light[static_cast<std::size_t>((window.row + r) * edge + window.column + c)]);
-  return out;
-}
+constexpr double UPDATE_TIME = 3e-3;      // [s] of painting in one update
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
+#include "rviz/trees/limb_ends.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
@@ -102,6 +103,7 @@ DrawnTree::Shape DrawnTree::makeShape(const forest::TreeLevels& levels,
                                       const TreeLook& look) const {
   const forest::TreeMeshDetail detail = forest::treeMeshDetail(boughs_, levels);
   Shape out{detail.depths(), forest::buildMesh(tree_.skeleton, species_, detail), {}, {}};
+  finishLimbEnds(tree_.skeleton, out.mesh);
   if (!look.leaves) out.mesh.leaves.clear();
   out.bark.positions.resize(3 * out.mesh.bark.size());
   out.leaves.positions.resize(3 * forest::LEAF_CORNERS * out.mesh.leaves.size());

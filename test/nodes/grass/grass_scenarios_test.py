@@ -4,6 +4,7 @@
 """Runs the meadow scenarios of the demo without rviz: the rolling stone (S2-29), the robot and people
 on a hillside leave tracks, the mower cuts."""
 import math
+import pathlib
 import signal
 import subprocess
 import threading
@@ -16,13 +17,14 @@ from geometry_msgs.msg import Twist, Vector3, WrenchStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log as LogMessage
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import InteractiveMarkerFeedback
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
 from forest_rig import TickClock
 from grass_rig import RATE, Meadow
 from waiting import DEADLINE, wait_for
 from watched_node import Log, publisher
 
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 RADIUS = 0.45  # of the stone [m]
 NODES = {'meadow': ['/stone', '/grass_field', '/wind_broadcaster'],
          'hills': ['/agent_crowd', '/driver', '/forest_animator', '/grass_field', '/robot', '/stone',
@@ -135,6 +137,19 @@ class GrassScenarios(unittest.TestCase):
         self.assertGreater(max(math.hypot(w.x, w.y) for w in winds), 8.0)
         self.assertGreater(len({round(s.height, 2) for s in samples}), 5)
         self.assertEqual(self.meadow.diagnostics()['Jumps of sources'], 0)
+
+    # rviz draws a mesh, which can have a texture and casts a shadow.
+    def test_the_stone_is_a_mesh_of_the_package(self):
+        self.start('meadow')
+        markers = Log('/stone/markers', MarkerArray)
+        self.addCleanup(markers.close)
+        stone = markers.wait(lambda all: all, 'the stone')[0].markers[0]
+        self.assertEqual(stone.type, Marker.MESH_RESOURCE)
+        self.assertTrue(stone.mesh_use_embedded_materials)
+        mesh = ROOT / stone.mesh_resource.replace('package://vegetation_sim/', '')
+        reach = max(math.hypot(*map(float, line.split()[1:])) for line in mesh.read_text().split('\n')
+                    if line.startswith('v '))
+        self.assertAlmostEqual(stone.scale.x * reach, RADIUS, delta=0.1 * RADIUS)
 
     # S2-29: a user rolls the stone by twists and by its marker. Grass is down on its way and nowhere
     # else.

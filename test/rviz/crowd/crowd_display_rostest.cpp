@@ -81,6 +81,26 @@ class CrowdRig : public DisplayRig {
 // display.
 std::unique_ptr<CrowdRig> shared_rig;
 
+/// A marker at the origin, and a display of rviz that shows it.
+struct ShownMarker {
+  ShownMarker(ViewRig& rig, int type, double size)
+      : display(rig.manager().createDisplay("rviz/MarkerArray", "Markers", true)),
+        publisher(rig.nodeHandle().advertise<visualization_msgs::MarkerArray>("solids", 1, true)) {
+    display->subProp("Marker Topic")->setValue("solids");
+    message.markers.resize(1);
+    visualization_msgs::Marker& solid = message.markers.front();
+    solid.header.frame_id = "map";
+    solid.type = type;
+    solid.pose.position.z = 0.3;
+    solid.pose.orientation.w = 1.0;
+    solid.scale.x = solid.scale.y = solid.scale.z = size;
+  }
+
+  rviz::Display* display;
+  ros::Publisher publisher;
+  visualization_msgs::MarkerArray message;
+};
+
 class CrowdDisplayTest : public testing::Test {
  protected:
   static void SetUpTestSuite() { shared_rig = std::make_unique<CrowdRig>(); }
@@ -95,6 +115,24 @@ class CrowdDisplayTest : public testing::Test {
       rig.report();
       return display->drawn().drawn == 8;
     }));
+  }
+  /// Shows a marker from above, and returns how many values are darker with its shadows.
+  int darkenedBy(const ShownMarker& shown) {
+    const std::vector<std::uint8_t> empty = steadyPicture(rig);
+    shown.publisher.publish(shown.message);
+    rig.lookAt(0.f, 1.2, 5.0);
+    EXPECT_TRUE(rig.until([&] {
+      rig.frames(1);
+      return rig.largestChange(empty, rig.picture()) > 20.0;
+    }));
+    display->subProp("Ground")->subProp("Robot Shadows")->setValue(false);
+    const std::vector<std::uint8_t> without = steadyPicture(rig);
+    display->subProp("Ground")->subProp("Robot Shadows")->setValue(true);
+    const std::vector<std::uint8_t> with = steadyPicture(rig);
+    int darker = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) darker += int{with[i]} < int{without[i]} - 15;
+    std::cout << darker << " darker values\n";
+    return darker;
   }
   void TearDown() override {
     if (display != nullptr) rig.remove(display);
@@ -193,41 +231,42 @@ TEST_F(CrowdDisplayTest, FeetDarkenTheGround) {
 // A box that a marker draws darkens the ground of the display that owns it. The box is seen from
 // above and hides the same ground in both pictures.
 TEST_F(CrowdDisplayTest, RobotsAndMarkersDarkenTheGround) {
-  rviz::Display* markers = rig.manager().createDisplay("rviz/MarkerArray", "Markers", true);
-  markers->subProp("Marker Topic")->setValue("boxes");
-  const ros::Publisher publisher =
-      rig.nodeHandle().advertise<visualization_msgs::MarkerArray>("boxes", 1, true);
-  visualization_msgs::MarkerArray message;
-  message.markers.resize(1);
-  visualization_msgs::Marker& box = message.markers.front();
-  box.header.frame_id = "map";
-  box.type = visualization_msgs::Marker::CUBE;
-  box.pose.position.z = 0.3;
-  box.pose.orientation.w = 1.0;
-  box.scale.x = box.scale.y = box.scale.z = 0.6;
+  ShownMarker shown(rig, visualization_msgs::Marker::CUBE, 0.6);
+  visualization_msgs::Marker& box = shown.message.markers.front();
   box.color.r = box.color.a = 1.f;
-  const std::vector<std::uint8_t> empty = steadyPicture(rig);
-  publisher.publish(message);
-  rig.lookAt(0.f, 1.2, 5.0);
-  ASSERT_TRUE(rig.until([&] {
-    rig.frames(1);
-    return rig.largestChange(empty, rig.picture()) > 20.0;
-  }));
-  display->subProp("Ground")->subProp("Robot Shadows")->setValue(false);
-  const std::vector<std::uint8_t> without = steadyPicture(rig);
-  display->subProp("Ground")->subProp("Robot Shadows")->setValue(true);
-  const std::vector<std::uint8_t> with = steadyPicture(rig);
-  int darker = 0;
-  for (std::size_t i = 0; i < with.size(); ++i) darker += int{with[i]} < int{without[i]} - 15;
-  std::cout << darker << " darker values\n";
-  EXPECT_GT(darker, 500);
+  EXPECT_GT(darkenedBy(shown), 500);
   // One that shines through casts none.
   box.color.a = 0.3f;
-  publisher.publish(message);
+  shown.publisher.publish(shown.message);
   const std::vector<std::uint8_t> glass = steadyPicture(rig);
   display->subProp("Ground")->subProp("Robot Shadows")->setValue(false);
   EXPECT_LT(rig.largestChange(glass, steadyPicture(rig)), 1.0);
-  rig.remove(markers);
+  rig.remove(shown.display);
+}
+
+// So does the stone of scripts/rolling_stone.py, no part of which is black.
+TEST_F(CrowdDisplayTest, AStoneDarkensTheGround) {
+  ShownMarker shown(rig, visualization_msgs::Marker::MESH_RESOURCE, 0.45);
+  visualization_msgs::Marker& stone = shown.message.markers.front();
+  stone.mesh_resource = "package://vegetation_sim/media/stone/stone.obj";
+  stone.mesh_use_embedded_materials = true;
+  EXPECT_GT(darkenedBy(shown), 500);
+  rig.lookAt(0.3f, 0.3, 1.2);  // It fills the middle of the picture.
+  const std::vector<std::uint8_t> pixels = steadyPicture(rig);
+  const auto width = static_cast<std::size_t>(rig.panel().getRenderWindow()->getWidth());
+  const std::size_t height = pixels.size() / 3 / width;
+  std::array<std::uint8_t, 2> range{255, 0};
+  for (std::size_t row = height / 3; row < 2 * height / 3; ++row) {
+    for (std::size_t column = width / 3; column < 2 * width / 3; ++column) {
+      const std::uint8_t green = pixels[3 * (row * width + column) + 1];
+      range = {std::min(range[0], green), std::max(range[1], green)};
+    }
+  }
+  std::cout << "the stone has green from " << int{range[0]} << " to " << int{range[1]} << "\n";
+  EXPECT_GT(range[0], 40);
+  EXPECT_LT(range[1], 200);
+  EXPECT_GT(range[1], range[0] + 20);  // It is mottled.
+  rig.remove(shown.display);
 }
 
 TEST_F(CrowdDisplayTest, PeopleWalk) {

@@ -10,6 +10,7 @@
 #include "rviz/ground/ground_texture.h"
 #include "rviz/ground/shadow_painter.h"
 #include "rviz/textures/grain_texture.h"
+#include "rviz/trees/limb_ends.h"
 #include "scenes/forest/forest_fixture.h"
 
 namespace vegetation_sim::view {
@@ -151,8 +152,9 @@ TEST(DrawnTree, StandsAsTheReplicaSays) {
   still.flutter = false;
   ASSERT_TRUE(tree.move(replica, stamp, replica.wind().at(stamp), still, 100.0));
   const std::vector<Pose> poses = replica.pose(tree.tree(), tree.id(), stamp);
-  const forest::TreeMesh mesh = forest::buildMesh(tree.tree().skeleton, replica.layout().species[2],
-                                                  forest::meshDetail(forest::GEOMETRY_LEVELS - 1));
+  forest::TreeMesh mesh = forest::buildMesh(tree.tree().skeleton, replica.layout().species[2],
+                                            forest::meshDetail(forest::GEOMETRY_LEVELS - 1));
+  finishLimbEnds(tree.tree().skeleton, mesh);
   ASSERT_EQ(3 * mesh.bark.size(), tree.shapes().front().bark.positions.size());
   for (std::size_t i = 0; i < mesh.bark.size(); ++i) {
     const forest::BarkVertex& v = mesh.bark[i];
