@@ -22,8 +22,8 @@ const FormRings& trunkRings() {
                                   {0.150, 0.088, 0.061, 0.007, Cover::STRIPE, true, 1.03},
                                   {0.195, 0.095, 0.066, 0.008, Cover::SHIRT, true},
                                   {0.230, 0.102, 0.066, 0.004, Cover::STRIPE, true},
-                                  {0.260, 0.130, 0.054, -0.002, Cover::YOKE},
-                                  {0.285, 0.108, 0.043, -0.006, Cover::YOKE, true},
+                                  {0.257, 0.133, 0.054, -0.002, Cover::YOKE},
+                                  {0.285, 0.110, 0.043, -0.006, Cover::YOKE, true},
                                   {0.303, 0.076, 0.039, -0.009, Cover::YOKE},
                                   {0.312, 0.049, 0.036, -0.010, Cover::COLLAR, true, 0.95},
                                   {0.323, 0.036, 0.035, -0.008, Cover::COLLAR},
@@ -58,8 +58,8 @@ const FormRings& armRings(bool bare) {
   // A short sleeve ends in a hem around the arm, a long one in a cuff around the wrist. The inner
   // ring of a hem is dark.
   static const FormRings BARE = {{-0.008, 0.004, 0.005, 0.0, Cover::YOKE, true},
-                                 {0.000, 0.0125, 0.0165, 0.0, Cover::YOKE},
-                                 {0.014, 0.0205, 0.0245, 0.0, Cover::YOKE, true},
+                                 {0.000, 0.0115, 0.0160, 0.0, Cover::YOKE},
+                                 {0.022, 0.0205, 0.0250, 0.0, Cover::YOKE, true},
                                  {0.045, 0.0250, 0.0285, 0.0, Cover::SHIRT, true},
                                  {0.117, 0.0250, 0.0285, 0.0, Cover::SHIRT, false, 0.95},
                                  {0.1185, 0.0240, 0.0275, 0.0, Cover::SHIRT, true, 0.55},
@@ -74,8 +74,8 @@ const FormRings& armRings(bool bare) {
                                  {0.388, 0.0018, 0.0185, 0.000, Cover::SKIN, true, 0.8},
                                  {0.404, 0.0010, 0.0150, 0.000, Cover::SKIN, false, 0.8}};
   static const FormRings LONG = {{-0.008, 0.004, 0.005, 0.0, Cover::YOKE, true},
-                                 {0.000, 0.0125, 0.0165, 0.0, Cover::YOKE},
-                                 {0.014, 0.0205, 0.0245, 0.0, Cover::YOKE, true},
+                                 {0.000, 0.0115, 0.0160, 0.0, Cover::YOKE},
+                                 {0.022, 0.0205, 0.0250, 0.0, Cover::YOKE, true},
                                  {0.045, 0.0250, 0.0285, 0.0, Cover::SHIRT, true},
                                  {0.117, 0.0232, 0.0265, 0.0, Cover::SHIRT, false, 0.97},
                                  {0.172, 0.0208, 0.0242, 0.0, Cover::SHIRT, true, 0.86},
