@@ -151,7 +151,7 @@ class SkinMaker {
     flatten(ring, side, tube, vertex);
     const double hairline = hair_ ? hair_->edgeAt(around) : NO_HAIR;
     vertex.cover = coverOf(tube.kind, ring, side, hairline);
-    if (ring.along < skirt_ && isLower(vertex.cover))
+    if (skirt_ > 0.0 && ring.along < skirt_ && isLower(vertex.cover))
       vertex.cover = ring.along < UNDER_SKIRT ? Cover::SKIRT : Cover::SHANK;
     vertex.shade = ring.shade;
     if (!isHidden(tube, ring) && !isBelowSleeves(tube, ring)) raiseTo(form_, tube, vertex);

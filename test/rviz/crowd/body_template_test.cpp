@@ -20,6 +20,8 @@
 namespace vegetation_sim::view {
 namespace {
 
+using P = crowd::Proportions;
+
 constexpr int PHASES = 12;  // of a cycle of walking
 constexpr int STANDS = -1;  // instead of a phase
 
@@ -208,6 +210,20 @@ TEST(BodyTemplate, SleevesEndAtTheArm) {
     EXPECT_LT(largest, long_sleeves ? 0.0025 : 0.008);
     EXPECT_GT(largest, long_sleeves ? -0.001 : 0.0025);
   }
+}
+
+// A top has its colour down to its hem, and trousers theirs below it.
+TEST(BodyTemplate, TopsEndAtTheirHems) {
+  crowd::Clothes clothes = markedClothes(crowd::HairCut::SHORT, crowd::Outfit::TROUSERS);
+  clothes.shirt = clothes.second = Vec3::UnitX();
+  const Surface body(clothes);
+  const auto red = [&](double up) {
+    const auto hit = body.firstHit(Vec3(-1.0, 0.05, up * TALL), Vec3::UnitX());
+    return hit ? hit->colour.x() : 0.0;
+  };
+  const double hips = P::THIGH + P::SHANK + P::ANKLE;
+  EXPECT_GT(red(hips - 0.012), 0.7 * red(hips + 0.02));
+  EXPECT_LT(red(hips - 0.03), 1.0);
 }
 
 class WalkingTest : public testing::TestWithParam<int> {};
