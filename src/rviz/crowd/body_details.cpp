@@ -17,9 +17,10 @@ using P = crowd::Proportions;
 using Kind = FormTube::Kind;
 
 constexpr double HIP_HEIGHT = P::THIGH + P::SHANK + P::ANKLE;
-constexpr double HEM_SHARE = 0.4;  // of the thighs in the movement of shirts
-constexpr double BETWEEN_FINGERS = 0.7;
-constexpr double FOLDS = 0.17;  // strength of folds in the normals of clothes
+constexpr double HEM_SHARE = 0.4;        // of the thighs in the movement of shirts
+constexpr double BETWEEN_FINGERS = 0.7;  // factor of the colour
+constexpr double BETWEEN_THIGHS = 0.05;  // half width of what hangs between them
+constexpr double FOLDS = 0.17;           // strength of folds in the normals of clothes
 constexpr std::uint64_t FOLD_SEED = 0x464f4c44;
 
 // A change of a vertex of the head: outwards, and its shade and cover.
@@ -133,6 +134,16 @@ void bindTrunk(SkinVertex& vertex) {
   if (at.z() < HIP_HEIGHT + 0.05)
     return bind(Bone::PELVIS, Bone::THIGH, side, HEM_SHARE * thighShare(at), vertex);
   bind(Bone::PELVIS, Bone::CHEST, 0, step(at.z(), HIP_HEIGHT + 0.12, 0.07), vertex);
+}
+
+// Below the hips, the middle of a skirt hangs between both thighs.
+void bindSkirt(SkinVertex& vertex) {
+  const double y = vertex.position.y(), below = HIP_HEIGHT - vertex.position.z();
+  const int side = y >= 0.0 ? 0 : 1;
+  if (below < 0.05)
+    return bind(Bone::PELVIS, Bone::THIGH, side, thighShare(vertex.position), vertex);
+  vertex.bones = {boneOf(Bone::THIGH, side), boneOf(Bone::THIGH, 1 - side)};
+  vertex.second = 0.5 * (1.0 - smoothStep(std::fabs(y) / BETWEEN_THIGHS));
 }
 
 void bindLimb(const FormTube& tube, SkinVertex& vertex) {
@@ -258,8 +269,7 @@ void bindTo(const FormTube& tube, SkinVertex& vertex) {
     case Kind::TRUNK:
       return bindTrunk(vertex);
     case Kind::SKIRT:
-      return bind(Bone::PELVIS, Bone::THIGH, vertex.position.y() >= 0.0 ? 0 : 1,
-                  thighShare(vertex.position), vertex);
+      return bindSkirt(vertex);
     case Kind::HAIR:
       return bind(Bone::CHEST, Bone::HEAD, 0, step(vertex.position.z(), 0.815, 0.045), vertex);
     case Kind::HEAD:

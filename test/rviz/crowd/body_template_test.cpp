@@ -232,15 +232,17 @@ class WalkingTest : public testing::TestWithParam<int> {};
 struct Covered {
   std::vector<bool> parts;
   double hem, hips;
+  Vec3 front;  ///< the middle of the hem
 };
 Covered coveredBy(const Surface& body) {
-  Covered out{std::vector<bool>(body.parts().size(), false), 0.0, 0.0};
+  Covered out{std::vector<bool>(body.parts().size(), false), 0.0, 0.0, Vec3::Zero()};
   for (std::size_t part = 0; part < out.parts.size(); ++part) {
     const auto [low, high] = body.boxOf(part);
     out.parts[part] = part == 0 || low.z() < 0.25 * TALL;  // the trunk and legs
     const bool around = low.z() > 0.25 * TALL && low.y() < -0.1 && high.y() > 0.1;
     if (!around || high.z() > 0.65 * TALL) continue;
     out.hips = high.z() - 0.05;
+    out.front = body.pointOf(body.parts()[part][9]);
     for (std::size_t i = 0; i < 12; ++i)  // its first ring
       out.hem = std::max(out.hem, body.pointOf(body.parts()[part][i]).z());
   }
@@ -275,6 +277,17 @@ TEST_P(WalkingTest, NothingPokesThroughSkirtsAndCoats) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Phases, WalkingTest, testing::Range(STANDS, PHASES));
+
+// The middle of a skirt is in front as much in the steps of the right leg as in those of the left.
+TEST(BodyTemplate, SkirtsHangBetweenTheLegs) {
+  const crowd::Clothes clothes = markedClothes(crowd::HairCut::SHORT, crowd::Outfit::SKIRT);
+  for (int phase = 0; phase < PHASES / 2; ++phase) {
+    const Vec3 left = coveredBy(Surface(clothes, phase)).front;
+    const Vec3 right = coveredBy(Surface(clothes, phase + PHASES / 2)).front;
+    EXPECT_NEAR(left.x(), right.x(), 0.03);
+    EXPECT_NEAR(left.z(), right.z(), 0.03);
+  }
+}
 
 // Going down from the crown, skin that has come into sight is not covered by hair again: the head
 // does not poke through the hair.
