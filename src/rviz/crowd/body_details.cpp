@@ -203,7 +203,7 @@ void shapeDetails(Kind kind, const FormRing& ring, std::size_t vertex, const Vec
                   SkinVertex& out) {
   if (kind == Kind::ARM && vertex == 9) {  // the thumb
     if (isAt(ring.along, 0.335)) out.position += 0.004 * outward;
-    if (isAt(ring.along, 0.357)) out.position += 0.006 * outward;
+    if (isAt(ring.along, 0.357)) out.position += 0.003 * outward;
   }
   if (kind == Kind::EYE) shapeEye(ring, vertex, out);
   if (kind == Kind::FINGER && vertex % 6 == 0) out.shade *= BETWEEN_FINGERS;

@@ -34,7 +34,7 @@ constexpr Finger FINGERS[] = {{0.371, 0.0158, 0.043, 0.0054, 0.01, 0.00},
                               {0.373, 0.0054, 0.048, 0.0056, 0.00, 0.00},
                               {0.371, -0.0050, 0.045, 0.0054, -0.01, 0.02},
                               {0.367, -0.0146, 0.037, 0.0048, -0.03, 0.04},
-                              {0.340, 0.0150, 0.041, 0.0068, 0.32, 0.20}};
+                              {0.338, 0.0165, 0.043, 0.0068, 0.42, 0.06}};
 
 // Returns the smaller of two distances, less around places where they are about equal.
 double smoothMinimum(double a, double b, double reach) {

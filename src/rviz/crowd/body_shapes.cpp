@@ -162,7 +162,7 @@ FormRings fingerRings(double length, double radius) {
   FormRings out = {{-0.010, 0.8 * radius, 0.8 * radius},
                    {0.30 * length, radius, radius},
                    {0.80 * length, 0.9 * radius, 0.9 * radius},
-                   {length, 0.25 * radius, 0.25 * radius, 0.0, Cover::SKIN, false, 1.2}};
+                   {length, 0.25 * radius, 0.25 * radius, 0.0, Cover::SKIN, false, 1.04}};
   for (FormRing& ring : out) ring.forward = curlOf(ring.along);
   return out;
 }
