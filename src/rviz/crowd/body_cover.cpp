@@ -23,11 +23,14 @@ struct Painter {
   void paintHead() const {
     const Vec3& skin = clothes.skin;
     at(Cover::SKIN) = skin;
-    at(Cover::LIPS) = skin.cwiseProduct(Vec3(0.76, 0.52, 0.50));
+    at(Cover::LIPS) = skin.cwiseProduct(Vec3(0.85, 0.66, 0.64));
+    at(Cover::LIP_LINE) = 0.5 * at(Cover::LIPS);
+    at(Cover::MOUSTACHE) = blend(0.92 * at(Cover::LIPS), clothes.hair, clothes.beard);
     at(Cover::BEARD) = blend(skin, clothes.hair, clothes.beard);
-    at(Cover::BROW) = blend(0.8 * clothes.hair, skin, 0.4);
+    at(Cover::BROW) = blend(0.8 * clothes.hair, skin, 0.35);
     at(Cover::EYE) = Vec3(0.86, 0.84, 0.82);
-    at(Cover::IRIS) = blend(0.4 * clothes.hair, Vec3(0.07, 0.08, 0.10), 0.6);
+    at(Cover::IRIS) = blend(0.6 * clothes.hair, Vec3(0.20, 0.25, 0.28), 0.5);
+    at(Cover::LASHES) = 0.3 * blend(skin, clothes.hair, 0.6);
     at(Cover::HAIR) = clothes.hair;
     at(Cover::HAT) = clothes.second;
   }
@@ -59,6 +62,7 @@ struct Painter {
     at(Cover::CUFF) = clothes.long_sleeves ? Vec3(0.75 * shirt) : clothes.skin;
     at(Cover::HEM) = clothes.tucked ? clothes.trousers : shirt;
     at(Cover::HEM_FRONT) = clothes.tucked ? clothes.trousers : at(Cover::FRONT);
+    at(Cover::UNDER_HEM) = (clothes.tucked ? 1.0 : 0.6) * clothes.trousers;
     at(Cover::BELT) = clothes.tucked ? Vec3(0.5 * clothes.shoes) : shirt;
   }
 

@@ -14,10 +14,13 @@ namespace vegetation_sim::view {
 enum class Cover : std::uint8_t {
   SKIN,
   LIPS,
+  LIP_LINE,   ///< between the lips
+  MOUSTACHE,  ///< or the upper lip
   BEARD,
   BROW,
   EYE,
   IRIS,
+  LASHES,
   HAIR,
   HAT,
   SHIRT,
@@ -34,6 +37,7 @@ enum class Cover : std::uint8_t {
   COLLAR,
   HEM,  ///< below the belt
   HEM_FRONT,
+  UNDER_HEM,  ///< of trousers, in its shade
   BELT,
   SLEEVE,  ///< below short sleeves
   CUFF,

@@ -17,8 +17,10 @@ using P = crowd::Proportions;
 using Kind = FormTube::Kind;
 
 constexpr double HIP_HEIGHT = P::THIGH + P::SHANK + P::ANKLE;
-constexpr double HEM_SHARE = 0.4;  // of the thighs in the movement of shirts
-constexpr double FOLDS = 0.17;     // strength of folds in the normals of clothes
+constexpr double HEM_SHARE = 0.4;        // of the thighs in the movement of shirts
+constexpr double BETWEEN_FINGERS = 0.7;  // factor of the colour
+constexpr double BETWEEN_THIGHS = 0.05;  // half width of what hangs between them
+constexpr double FOLDS = 0.17;           // strength of folds in the normals of clothes
 constexpr std::uint64_t FOLD_SEED = 0x464f4c44;
 
 // A change of a vertex of the head: outwards, and its shade and cover.
@@ -28,33 +30,51 @@ struct Feature {
   double out, shade;
   Cover cover{Cover::SKIN};
 };
-const Feature FEATURES[] = {{0.0120, 0, 0.0025, 1.03},              // chin
-                            {0.0235, 0, -0.0010, 0.90},             // below the lips
-                            {0.0300, 0, 0.0020, 1.0, Cover::LIPS},  // mouth
-                            {0.0300, 1, 0.0008, 0.86},
-                            {0.0440, 0, 0.0115, 0.86},  // nose
-                            {0.0440, 1, 0.0000, 0.88},
-                            {0.0530, 0, 0.0090, 1.06},
-                            {0.0625, 0, 0.0045, 1.03},
-                            {0.0710, 0, 0.0010, 0.97},
-                            {0.0530, 1, -0.0005, 0.98},  // sockets of the eyes
-                            {0.0625, 1, -0.0030, 0.80},
-                            {0.0625, 2, -0.0010, 0.94},
-                            {0.0710, 1, -0.0015, 0.95},
-                            {0.0765, 1, 0.0020, 1.0, Cover::BROW},
-                            {0.0530, 2, 0.0012, 1.05},  // cheek
-                            {0.0440, 4, 0.0050, 0.95},  // ear
-                            {0.0530, 4, 0.0085, 0.98},
-                            {0.0625, 4, 0.0095, 1.0},
-                            {0.0710, 4, 0.0050, 0.98}};
+const Feature FEATURES[] = {{0.0100, 0, 0.0022, 1.03},  // chin
+                            {0.0100, 1, 0.0015, 1.0},
+                            {0.0185, 0, -0.0010, 0.90},  // below the lips
+                            {0.0185, 1, -0.0006, 0.93},
+                            {0.0240, 0, 0.0022, 1.05, Cover::LIPS},
+                            {0.0240, 1, 0.0010, 1.0},
+                            {0.0270, 0, 0.0012, 1.0, Cover::LIP_LINE},
+                            {0.0270, 1, 0.0004, 1.0, Cover::LIP_LINE},
+                            {0.0270, 2, -0.0006, 0.92},
+                            {0.0302, 0, 0.0026, 1.0, Cover::MOUSTACHE},
+                            {0.0302, 1, 0.0014, 1.0, Cover::MOUSTACHE},
+                            {0.0385, 0, 0.0050, 0.80},  // below the nose
+                            {0.0385, 1, 0.0010, 0.86},
+                            {0.0465, 0, 0.0110, 1.02},  // nose
+                            {0.0465, 1, 0.0036, 0.96},
+                            {0.0545, 0, 0.0085, 1.04},
+                            {0.0545, 1, 0.0000, 0.97},
+                            {0.0545, 2, 0.0004, 1.02},  // cheek
+                            {0.0625, 0, 0.0052, 1.02},
+                            {0.0625, 1, -0.0034, 0.84},  // sockets of the eyes
+                            {0.0625, 2, -0.0024, 0.88},
+                            {0.0725, 0, 0.0022, 0.98},
+                            {0.0725, 1, -0.0010, 0.93},
+                            {0.0725, 2, -0.0004, 0.95},
+                            {0.0765, 0, 0.0012, 1.0},
+                            {0.0765, 1, 0.0018, 1.0, Cover::BROW},
+                            {0.0765, 2, 0.0014, 1.0, Cover::BROW}};
 
 bool isAt(double a, double b) {
   return std::fabs(a - b) < 1e-6;
 }
 
+// Lashes are above the eye only, which is shaded by its upper lid.
+void shapeEye(const FormRing& ring, std::size_t vertex, SkinVertex& out) {
+  const bool above = vertex >= 7;
+  if (ring.cover == Cover::LASHES && !above && vertex % 6 != 0) {
+    out.cover = Cover::SKIN;
+    out.shade *= 0.72;
+  }
+  if (ring.cover == Cover::EYE && above) out.shade *= 0.8;
+}
+
 bool isBearded(double along, std::size_t column) {
-  if (along < 0.026) return column <= 3 && along > -0.004;
-  if (along < 0.040) return column <= 1 ? along > 0.033 : column == 3;
+  if (along < 0.020) return column <= 3 && along > -0.004;
+  if (along < 0.035) return column == 2 || column == 3;
   return column == 3 && along < 0.056;
 }
 
@@ -116,6 +136,16 @@ void bindTrunk(SkinVertex& vertex) {
   bind(Bone::PELVIS, Bone::CHEST, 0, step(at.z(), HIP_HEIGHT + 0.12, 0.07), vertex);
 }
 
+// Below the hips, the middle of a skirt hangs between both thighs.
+void bindSkirt(SkinVertex& vertex) {
+  const double y = vertex.position.y(), below = HIP_HEIGHT - vertex.position.z();
+  const int side = y >= 0.0 ? 0 : 1;
+  if (below < 0.05)
+    return bind(Bone::PELVIS, Bone::THIGH, side, thighShare(vertex.position), vertex);
+  vertex.bones = {boneOf(Bone::THIGH, side), boneOf(Bone::THIGH, 1 - side)};
+  vertex.second = 0.5 * (1.0 - smoothStep(std::fabs(y) / BETWEEN_THIGHS));
+}
+
 void bindLimb(const FormTube& tube, SkinVertex& vertex) {
   const double s = dot(vertex.position - tube.origin, tube.along);
   if (tube.kind == Kind::ARM) {
@@ -142,15 +172,19 @@ Around aroundOf(Kind kind, std::size_t vertex) {
     const SinCos turn = sinCosTurns(static_cast<double>(vertex) / MOST_SIDES);
     return {turn.cos, -turn.sin};
   }
-  constexpr double HEAD[HairForm::COLUMNS] = {0.0, 25.0, 53.0, 87.0, 118.0, 149.0, 180.0};
+  // Noses and mouths reach to column 1, eyes to column 2.
+  constexpr double HEAD[HairForm::COLUMNS] = {0.0, 12.5, 33.0, 53.0, 87.0, 118.0, 180.0};
   constexpr double TRUNK[HairForm::COLUMNS] = {0.0, 18.0, 50.0, 87.0, 119.0, 150.0, 180.0};
-  const bool head = kind == Kind::HEAD || kind == Kind::HAIR;
-  const double angle = (head ? HEAD : TRUNK)[columnOf(vertex)];
+  const auto& angles = kind == Kind::HEAD   ? HEAD
+                       : kind == Kind::HAIR ? HairForm::COLUMN_ANGLES
+                                            : TRUNK;
+  const double angle = angles[columnOf(vertex)];
   const SinCos turn = sinCosTurns(angle / 360.0);
   const double left = vertex > 3 && vertex < 9 ? -turn.sin : turn.sin;
-  // Trunks are rather square.
-  const double corner =
-      kind == Kind::TRUNK ? 1.0 + 0.3 * turn.sin * turn.sin * turn.cos * turn.cos : 1.0;
+  // Trunks and what hangs around them are rather square.
+  const double corner = kind == Kind::TRUNK || kind == Kind::SKIRT
+                            ? 1.0 + 0.3 * turn.sin * turn.sin * turn.cos * turn.cos
+                            : 1.0;
   return {corner * left, corner * turn.cos};
 }
 
@@ -161,16 +195,18 @@ Cover coverOf(Kind kind, const FormRing& ring, std::size_t vertex, double hairli
   if (kind != Kind::HEAD) return ring.cover;
   // Temples are bare up to the brows, next to which they are in small bodies.
   const bool bare = column <= 3 && ring.along < 0.08 && hairline > 0.05;
-  if (ring.along > hairline + 0.006 && !bare) return Cover::HAIR;
+  if (ring.along > hairline + 0.012 && !bare) return Cover::HAIR;
   return isBearded(ring.along, column) ? Cover::BEARD : ring.cover;
 }
 
 void shapeDetails(Kind kind, const FormRing& ring, std::size_t vertex, const Vec3& outward,
                   SkinVertex& out) {
   if (kind == Kind::ARM && vertex == 9) {  // the thumb
-    if (isAt(ring.along, 0.335)) out.position += 0.005 * outward;
-    if (isAt(ring.along, 0.357)) out.position += 0.012 * outward;
+    if (isAt(ring.along, 0.335)) out.position += 0.004 * outward;
+    if (isAt(ring.along, 0.357)) out.position += 0.003 * outward;
   }
+  if (kind == Kind::EYE) shapeEye(ring, vertex, out);
+  if (kind == Kind::FINGER && vertex % 6 == 0) out.shade *= BETWEEN_FINGERS;
   if (kind != Kind::HEAD) return;
   for (const Feature& feature : FEATURES) {
     if (columnOf(vertex) != feature.column || !isAt(ring.along, feature.along)) continue;
@@ -233,14 +269,18 @@ void bindTo(const FormTube& tube, SkinVertex& vertex) {
     case Kind::TRUNK:
       return bindTrunk(vertex);
     case Kind::SKIRT:
-      return bind(Bone::PELVIS, Bone::THIGH, vertex.position.y() >= 0.0 ? 0 : 1,
-                  thighShare(vertex.position), vertex);
+      return bindSkirt(vertex);
     case Kind::HAIR:
       return bind(Bone::CHEST, Bone::HEAD, 0, step(vertex.position.z(), 0.815, 0.045), vertex);
     case Kind::HEAD:
     case Kind::EYE:
+    case Kind::IRIS:
+    case Kind::EAR:
     case Kind::TAIL:
       return bind(Bone::HEAD, Bone::HEAD, 0, 0.0, vertex);
+    case Kind::FINGER:
+    case Kind::THUMB:
+      return bind(Bone::FOREARM, Bone::FOREARM, tube.side, 0.0, vertex);
     case Kind::SHOE:
       return bind(Bone::FOOT, Bone::FOOT, tube.side, 0.0, vertex);
     default:

@@ -18,10 +18,23 @@ using Kind = FormTube::Kind;
 
 constexpr double HIP = P::THIGH + P::SHANK + P::ANKLE;  // height of the hips
 // Places of the eyes; they look slightly aside, as the face is round.
-constexpr double EYE_HALF = 0.0178, EYE_UP = 0.0625, EYE_FORWARD = 0.0484;
+constexpr double EYE_HALF = 0.0183, EYE_UP = 0.0625, EYE_FORWARD = 0.0475;
 constexpr double EYE_ASIDE = 0.34, EYE_AHEAD = 0.94;
+constexpr double EAR_HALF = 0.041, EAR_UP = 0.0560, EAR_FORWARD = -0.009, EAR_BACK = 0.45;
 constexpr double ARM_OUT = 0.25;    // sine of the angle of the arms
+constexpr double HAND_TURN = 0.1;   // by how much thumbs are turned to the body, in turns
 constexpr double ARM_DROP = 0.018;  // from the top of the shoulder, where skeletons have the joint
+
+// A finger from its knuckle, or the thumb: places along the arm and to the thumb, and tangents of
+// its angles to the thumb and to the palm.
+struct Finger {
+  double from, aside, length, radius, spread, bent;
+};
+constexpr Finger FINGERS[] = {{0.371, 0.0158, 0.043, 0.0054, 0.01, 0.00},
+                              {0.373, 0.0054, 0.048, 0.0056, 0.00, 0.00},
+                              {0.371, -0.0050, 0.045, 0.0054, -0.01, 0.02},
+                              {0.367, -0.0146, 0.037, 0.0048, -0.03, 0.04},
+                              {0.338, 0.0165, 0.043, 0.0068, 0.42, 0.06}};
 
 // Returns the smaller of two distances, less around places where they are about equal.
 double smoothMinimum(double a, double b, double reach) {
@@ -72,7 +85,7 @@ double FormTube::distance(const Vec3& place) const {
   return beyond > 0.0 ? std::hypot(beyond, std::max(0.0, aside)) : aside;
 }
 
-BodyForm::BodyForm(crowd::Outfit outfit) {
+BodyForm::BodyForm(crowd::Outfit outfit, bool long_sleeves) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ(), hips(0.0, 0.0, HIP);
   const bool coat = outfit == crowd::Outfit::COAT, skirt = outfit == crowd::Outfit::SKIRT;
   tubes_.push_back({Kind::TRUNK, 1, hips, z, y, x, trunkRings()});
@@ -80,7 +93,7 @@ BodyForm::BodyForm(crowd::Outfit outfit) {
   for (int side = 0; side < 2; ++side) {
     const Vec3 down = armDirection(side);
     tubes_.push_back({Kind::ARM, side, onSide(side, P::SHOULDER_HALF, P::SHOULDER - ARM_DROP), down,
-                      cross(x, down), x, armRings()});
+                      cross(x, down), x, armRings(!long_sleeves)});
     tubes_.push_back({Kind::LEG, side, onSide(side, P::HIP_HALF, HIP), -z, y, x,
                       legRings(skirt || outfit == crowd::Outfit::SHORTS)});
     tubes_.push_back({Kind::SHOE, side, onSide(side, P::HIP_HALF, P::SOLE) - P::FOOT_BACK * x, x, y,
@@ -95,11 +108,39 @@ std::vector<FormTube> headTubes(crowd::HairCut cut) {
   for (int side = 0; side < 2; ++side) {
     const Vec3 ahead = EYE_AHEAD * x + onSide(side, EYE_ASIDE, 0.0);
     const Vec3 across(-ahead.y(), ahead.x(), 0.0);
-    out.push_back({Kind::EYE, side, onSide(side, EYE_HALF, P::NECK + EYE_UP) + EYE_FORWARD * x,
-                   ahead, across, z, eyeRings()});
+    const Vec3 middle = onSide(side, EYE_HALF, P::NECK + EYE_UP) + EYE_FORWARD * x;
+    out.push_back({Kind::EYE, side, middle, ahead, across, z, eyeRings()});
+    if (cut != crowd::HairCut::LONG && cut != crowd::HairCut::BOB)
+      out.push_back({Kind::EAR, side, onSide(side, EAR_HALF, P::NECK + EAR_UP) + EAR_FORWARD * x,
+                     unit(onSide(side, 1.0, 0.0) - EAR_BACK * x),
+                     unit(x + onSide(side, EAR_BACK, 0.0)), z, earRings()});
+    out.push_back({Kind::IRIS, side, middle, ahead, across, z, irisRings()});
   }
   const FormRings& tail = HairForm::tailRings(cut);
   if (!tail.empty()) out.push_back({Kind::TAIL, 1, Vec3(0.0, 0.0, P::NECK), z, y, x, tail});
+  return out;
+}
+
+HandAxes handAxes(const FormTube& arm) {
+  const double inward = arm.side == 0 ? -1.0 : 1.0;
+  const SinCos turn = sinCosTurns(HAND_TURN);
+  return {turn.cos * arm.front + inward * turn.sin * arm.left,
+          turn.sin * arm.front - inward * turn.cos * arm.left};
+}
+
+std::vector<FormTube> fingerTubes(const BodyForm& form) {
+  std::vector<FormTube> out;
+  for (const FormTube& arm : form.tubes()) {
+    if (arm.kind != Kind::ARM) continue;
+    const HandAxes hand = handAxes(arm);
+    for (const Finger& finger : FINGERS) {
+      const Vec3 at = arm.origin + finger.from * arm.along + finger.aside * hand.thumb;
+      const Vec3 way = arm.along + finger.spread * hand.thumb - finger.bent * hand.back;
+      const BoneAxes axes = axesAlong(way, hand.back);
+      out.push_back({finger.spread > 0.3 ? Kind::THUMB : Kind::FINGER, arm.side, at, axes.col(0),
+                     axes.col(2), -axes.col(1), fingerRings(finger.length, finger.radius)});
+    }
+  }
   return out;
 }
 

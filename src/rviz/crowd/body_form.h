@@ -13,7 +13,7 @@ namespace vegetation_sim::view {
 
 /// Part of the form of a body: rings along an axis, in heights of the person.
 struct FormTube {
-  enum class Kind { TRUNK, HEAD, ARM, LEG, SHOE, SKIRT, HAIR, EYE, TAIL };
+  enum class Kind { TRUNK, HEAD, ARM, LEG, SHOE, SKIRT, HAIR, EYE, IRIS, EAR, FINGER, THUMB, TAIL };
   Kind kind;
   int side;  ///< 0: left, 1: right or middle
   Vec3 origin, along, left, front;
@@ -26,13 +26,15 @@ struct FormTube {
   double distance(const Vec3& place) const;
   /// Returns whether it lies over the body, of whose form it is no part.
   bool isLoose() const { return kind >= Kind::SKIRT; }
+  /// Returns whether it is drawn from near only.
+  bool isClose() const { return kind >= Kind::EYE && kind <= Kind::THUMB; }
 };
 
 /// Form of a person of height 1 who stands at the origin, looks along x and holds the arms away
 /// from the trunk. Its surface is smooth where the parts meet.
 class BodyForm {
  public:
-  explicit BodyForm(crowd::Outfit outfit);
+  BodyForm(crowd::Outfit outfit, bool long_sleeves);
 
   const std::vector<FormTube>& tubes() const { return tubes_; }
   /// Returns about the distance from the surface, negative inside. @param without a tube that is
@@ -45,8 +47,18 @@ class BodyForm {
   std::vector<FormTube> tubes_;
 };
 
-/// Returns eyes and a tail of hair, which lie over the head of a BodyForm.
+/// Returns eyes, ears that hair leaves free, and a tail of hair, which lie over the head of a
+/// BodyForm.
 std::vector<FormTube> headTubes(crowd::HairCut cut);
+
+/// Returns the fingers of both hands, which begin within the palms.
+std::vector<FormTube> fingerTubes(const BodyForm& form);
+
+/// Axes of a hand: to its thumb, and away from its palm.
+struct HandAxes {
+  Vec3 thumb, back;
+};
+HandAxes handAxes(const FormTube& arm);
 
 /// Returns the skeleton in the pose of a BodyForm.
 crowd::Skeleton formSkeleton();

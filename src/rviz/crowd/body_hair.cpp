@@ -3,9 +3,9 @@
 #include "rviz/crowd/body_hair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
-#include "rviz/crowd/body_details.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/core/math/random.h"
 
@@ -93,9 +93,14 @@ std::size_t HairForm::rings() const {
   return std::size(HAIR_RINGS);
 }
 
-double HairForm::edge(std::size_t column) const {
+double HairForm::edgeAt(const Around& around) const {
   if (isBald()) return 1.0;  // above the head
-  return shapeOf(cut_ == HairCut::CAP ? HairCut::SHORT : cut_).edges[column];
+  const auto& edges = shapeOf(cut_ == HairCut::CAP ? HairCut::SHORT : cut_).edges;
+  const double angle = std::fabs(arcTangent(around.left, around.front)) * 180.0 / PI;
+  std::size_t next = 1;
+  while (next + 1 < COLUMNS && COLUMN_ANGLES[next] < angle) ++next;
+  const double from = COLUMN_ANGLES[next - 1], to = COLUMN_ANGLES[next];
+  return edges[next - 1] + saturate((angle - from) / (to - from)) * (edges[next] - edges[next - 1]);
 }
 
 FormRing HairForm::at(std::size_t ring, std::size_t vertex) const {
@@ -108,7 +113,8 @@ FormRing HairForm::at(std::size_t ring, std::size_t vertex) const {
   FormRing out =
       profileAt(std::max(low + own.share * (shape.crown - low), shape.crown - own.below_crown));
   const double uneven = Random(STRANDS).child(ring).uniform(vertex, -1.0, 1.0);
-  const double swell = shape.swell + (ring == 0 ? -BELOW_SKIN : shape.rough * uneven - 0.5 * sweep);
+  double swell = shape.swell + (ring == 0 ? -BELOW_SKIN : shape.rough * uneven - 0.5 * sweep);
+  if (isBald() && (column < 3 || tip)) swell -= 0.004;  // below the skin
   out.broad = tip && !isBald() ? TIP : out.broad + swell;
   out.deep = tip && !isBald() ? TIP : out.deep + swell;
   out.cover = cut_ == HairCut::CAP ? Cover::HAT : Cover::HAIR;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "rviz/crowd/body_shapes.h"
+#include "rviz/crowd/body_details.h"
 
 namespace vegetation_sim::view {
 
@@ -12,14 +12,16 @@ namespace vegetation_sim::view {
 class HairForm {
  public:
   static constexpr std::size_t COLUMNS = 7;
+  /// Angles of the columns from the front [degree].
+  static constexpr double COLUMN_ANGLES[COLUMNS] = {0.0, 25.0, 53.0, 87.0, 118.0, 149.0, 180.0};
 
   explicit HairForm(crowd::HairCut cut);
 
   /// Returns the ring from which a vertex has its place. @param ring below rings().
   FormRing at(std::size_t ring, std::size_t vertex) const;
   std::size_t rings() const;
-  /// Returns the height from which the head itself has the colour of hair.
-  double edge(std::size_t column) const;
+  /// Returns the height from which the head itself has the colour of hair in a direction.
+  double edgeAt(const Around& around) const;
   bool isBald() const { return cut_ == crowd::HairCut::BALD; }
   /// Returns a tail behind the head as rings from its end up, or none.
   static const FormRings& tailRings(crowd::HairCut cut);

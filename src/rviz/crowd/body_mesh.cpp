@@ -72,6 +72,7 @@ class SkinWriter {
       : pose_(pose),
         colours_(coverColours(clothes)),
         fullness_(2.0 * clothes.fullness - 1.0),
+        tucked_(clothes.tucked ? 1.0 : 0.0),
         wide_(clothes.build > 0.5),
         build_(std::fabs(2.0 * clothes.build - 1.0)),
         style_(style),
@@ -94,9 +95,11 @@ class SkinWriter {
     bool joined = false;
     for (std::size_t i = first; i < end; ++i) {
       if (rings[i].fine && style_.rings <= 0.0) continue;
+      if (rings[i].close && sides() < MOST_SIDES) continue;
       const auto at = static_cast<std::uint32_t>(mesh_.vertexCount());
-      writeRing(cornersOf(rings, i, first, end));
-      if (joined) join(at);
+      const std::size_t count = sidesOf(rings[i]);
+      writeRing(cornersOf(rings, i, first, end), count);
+      if (joined) join(at, static_cast<std::uint32_t>(count));
       joined = true;
     }
   }
@@ -105,6 +108,7 @@ class SkinWriter {
   Corners cornersOf(const SkinRings& rings, std::size_t i, std::size_t first,
                     std::size_t end) const {
     const Corners own = posed(rings[i]);
+    if (rings[i].close) return emerged(rings[first], own);
     if (!rings[i].fine || style_.rings >= 1.0) return own;
     std::size_t before = i, after = i;
     while (before > first && rings[before].fine) --before;
@@ -119,21 +123,29 @@ class SkinWriter {
     return out;
   }
 
+  // Rings that are left out from a distance come out of the first ring, which lies in the body.
+  Corners emerged(const SkinRing& first, const Corners& own) const {
+    if (style_.odd >= 1.0) return own;
+    Corners out = posed(first);
+    for (std::size_t k = 0; k < sidesOf(first); ++k) out[k] = between(out[k], own[k], style_.odd);
+    return out;
+  }
+
   Corners posed(const SkinRing& ring) const {
-    const std::size_t stride = MOST_SIDES / sides();
+    const std::size_t count = sidesOf(ring), stride = MOST_SIDES / count;
     const SkinVertex& any = ring.vertices.front();
     const SharedLight::Shares shares = light_(pose_.positionOf(any, any.position));
     Corners out;
-    for (std::size_t k = 0; k < sides(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       const SkinVertex& vertex = ring.vertices[k * stride];
-      const Vec3 rest = vertex.position + fullness_ * vertex.full +
+      const Vec3 rest = vertex.position + fullness_ * vertex.full + tucked_ * vertex.tucked +
                         build_ * (wide_ ? vertex.shoulders : vertex.hips);
       const Vec3& colour = colours_[static_cast<std::size_t>(vertex.cover)];
       out[k] = {pose_.positionOf(vertex, rest),
                 lit(pose_.normalOf(vertex), shares, vertex.open, CLOTH * vertex.shade * colour)};
     }
-    for (std::size_t k = 1; k < sides() && style_.odd < 1.0; k += 2)
-      out[k] = between(between(out[k - 1], out[(k + 1) % sides()], 0.5), out[k], style_.odd);
+    for (std::size_t k = 1; k < count && style_.odd < 1.0 && !ring.close; k += 2)
+      out[k] = between(between(out[k - 1], out[(k + 1) % count], 0.5), out[k], style_.odd);
     return out;
   }
 
@@ -154,8 +166,8 @@ class SkinWriter {
     return out;
   }
 
-  void writeRing(const Corners& corners) {
-    for (std::size_t k = 0; k < sides(); ++k) vertex(corners[k]);
+  void writeRing(const Corners& corners, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) vertex(corners[k]);
   }
 
   void vertex(const Corner& corner) {
@@ -168,8 +180,7 @@ class SkinWriter {
   }
 
   // Joins the ring before a vertex to the one that begins there. Left and right are alike.
-  void join(std::uint32_t next) {
-    const auto sides = static_cast<std::uint32_t>(style_.sides);
+  void join(std::uint32_t next, std::uint32_t sides) {
     const std::uint32_t last = next - sides;
     for (std::uint32_t i = 0; i < sides; ++i) {
       const std::uint32_t j = (i + 1) % sides;
@@ -183,10 +194,12 @@ class SkinWriter {
   }
 
   std::size_t sides() const { return static_cast<std::size_t>(style_.sides); }
+  std::size_t sidesOf(const SkinRing& ring) const { return ring.close ? ring.sides : sides(); }
 
   const SkinPose& pose_;
   CoverColours colours_;
   double fullness_;  // -1 to 1
+  double tucked_;    // 0 or 1
   bool wide_;        // at the shoulders
   double build_;     // 0 to 1
   const BodyStyle& style_;
@@ -212,7 +225,7 @@ void appendBody(const crowd::Skeleton& skeleton, const crowd::Clothes& clothes,
   const double height = limbOf(skeleton, crowd::Part::HEAD).radius / crowd::Proportions::HEAD;
   const SkinPose pose(skeleton, Vec3(style.left_x, style.left_y, 0.0), height);
   SkinWriter writer(pose, clothes, style, daylight, light, mesh);
-  writer.write(bodyTemplate(clothes.outfit));
+  writer.write(bodyTemplate(clothes.outfit, clothes.long_sleeves));
   writer.write(headTemplate(clothes.cut));
 }
 

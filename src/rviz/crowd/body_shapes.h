@@ -20,11 +20,18 @@ using FormRings = std::vector<FormRing>;
 
 const FormRings& trunkRings();  ///< from the hips up the spine
 const FormRings& headRings();   ///< from the chin up
-const FormRings& armRings();    ///< from the shoulder; the hand is flat, its thumb in front
+/// From the shoulder. The hand is flat, its thumb in front. @param bare below the elbows.
+const FormRings& armRings(bool bare);
 /// From the hip. @param bare below the knees.
 const FormRings& legRings(bool bare);
 const FormRings& shoeRings();  ///< from the heel to the toes
 const FormRings& eyeRings();   ///< outwards
+const FormRings& irisRings();  ///< likewise
+const FormRings& earRings();   ///< likewise
+/// Returns how far a relaxed finger has turned to the palm at a distance beyond its knuckle.
+double curlOf(double beyond);
+/// From the palm, curved to the front.
+FormRings fingerRings(double length, double radius);
 /// Returns a skirt from its hem at the knees up to the hips, or a coat.
 const FormRings& skirtRings(bool coat);
 

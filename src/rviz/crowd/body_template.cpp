@@ -15,13 +15,16 @@ namespace {
 using Kind = FormTube::Kind;
 
 constexpr double BURIED = 0.014;  // depth below other parts from which vertices stay there
-constexpr double HEM = 0.006;     // thickness of clothes at their hems
+constexpr double HEM = 0.005;     // thickness of clothes at their hems
 constexpr double HEM_FROM = -0.018, HEM_TO = -0.01;
-constexpr double WRIST = 0.32;        // of rings of arms
-constexpr double HAND_TURN = 0.1;     // by how much thumbs are turned to the body, in turns
-constexpr double UNDER_SKIRT = 0.15;  // of rings of trunk and legs
-constexpr double SCALP = 0.115;       // height of the head's rings that hair hides
-constexpr double NO_HAIR = 1.0;       // a hairline above the head
+constexpr double BELT = 0.035;    // of rings of the trunk
+constexpr double TUCKED = 0.023;  // by how much hips are thinner without the top over them
+// Depths of the head below hair, and of the trunk and of legs below a skirt.
+constexpr double BELOW_HAIR = 0.005, BELOW_SKIRT = 0.018, LEG_BELOW_SKIRT = 0.013;
+constexpr double WRIST = 0.32, KNUCKLES = 0.372;  // of rings of arms
+constexpr double UNDER_SKIRT = 0.15;              // of rings of trunk and legs
+constexpr double SCALP = 0.115;                   // height of the head's rings that hair hides
+constexpr double NO_HAIR = 1.0;                   // a hairline above the head
 
 // Moves a vertex to the smooth surface, unless it lies deep in another part.
 void raiseTo(const BodyForm& form, const FormTube& tube, SkinVertex& vertex) {
@@ -51,6 +54,25 @@ bool isHidden(const FormTube& tube, const FormRing& ring) {
          (tube.kind == Kind::ARM && (ring.along < 0.005 || ring.along > WRIST));
 }
 
+bool isFinger(Kind kind) {
+  return kind == Kind::FINGER || kind == Kind::THUMB;
+}
+
+bool isEye(const FormTube& tube, Cover cover) {
+  return (tube.kind == Kind::EYE || tube.kind == Kind::IRIS) && cover != Cover::SKIN;
+}
+
+// Returns the number of vertices of a ring that is seen from near.
+std::size_t sidesOf(Kind kind) {
+  if (isFinger(kind)) return 4;
+  return kind == Kind::IRIS || kind == Kind::EAR ? 6 : MOST_SIDES;
+}
+
+// Arms are raised over the trunk at the shoulders, so that their seams are clean.
+bool isBelowSleeves(const FormTube& tube, const FormRing& ring) {
+  return tube.kind == Kind::TRUNK && ring.along > 0.2 && ring.along < 0.3;
+}
+
 // Shoes are flat below.
 void flatten(const FormRing& ring, std::size_t side, const FormTube& tube, SkinVertex& vertex) {
   if (tube.kind != Kind::SHOE || side < 1 || side > 5) return;
@@ -61,24 +83,31 @@ void flatten(const FormRing& ring, std::size_t side, const FormTube& tube, SkinV
 }
 
 bool isLower(Cover cover) {
-  return cover == Cover::TROUSERS || cover == Cover::HEM || cover == Cover::HEM_FRONT;
+  return cover == Cover::TROUSERS || cover == Cover::HEM || cover == Cover::HEM_FRONT ||
+         cover == Cover::UNDER_HEM;
 }
 
 /// Makes the skin of tubes over a form.
 class SkinMaker {
  public:
   SkinMaker(const BodyForm& form, const HairForm* hair) : form_(form), hair_(hair) {
-    for (const FormTube& tube : form.tubes()) covers_ = covers_ || tube.kind == Kind::SKIRT;
+    for (const FormTube& tube : form.tubes())
+      if (tube.kind == Kind::SKIRT) {
+        skirt_ = -tube.rings.front().along;
+        waist_ = tube.rings.back().along - 0.012;
+      }
   }
 
   void add(const FormTube& tube) {
     const std::size_t first = rings_.size();
     for (const FormRing& ring : tube.rings) {
       if (tube.kind == Kind::HEAD && ring.along > SCALP && !hair_->isBald()) continue;
-      addRing(rings_.size() == first, ring);
+      addRing(tube, rings_.size() == first, ring);
       for (std::size_t k = 0; k < MOST_SIDES; ++k) place(tube, ring, k, rings_.back().vertices[k]);
     }
-    if (tube.kind == Kind::HEAD || tube.kind == Kind::SKIRT) takeNormals(first);
+    if (tube.kind == Kind::HEAD || isFinger(tube.kind) || tube.kind == Kind::SKIRT ||
+        tube.kind == Kind::EAR)
+      takeNormals(first);
     finish(tube, first);
   }
 
@@ -87,7 +116,7 @@ class SkinMaker {
     const FormTube tube{Kind::HAIR, 1, head.origin, head.along, head.left, head.front, {}};
     const std::size_t first = rings_.size();
     for (std::size_t r = 0; r < hair_->rings(); ++r) {
-      addRing(r == 0, hair_->at(r, 0));
+      addRing(tube, r == 0, hair_->at(r, 0));
       for (std::size_t k = 0; k < MOST_SIDES; ++k)
         place(tube, hair_->at(r, k), k, rings_.back().vertices[k]);
     }
@@ -98,37 +127,49 @@ class SkinMaker {
   SkinRings take() { return std::move(rings_); }
 
  private:
-  void addRing(bool begins, const FormRing& ring) {
+  void addRing(const FormTube& tube, bool begins, const FormRing& ring) {
     SkinRing skin;
     skin.begins = begins;
     skin.fine = ring.fine;
+    skin.close = tube.isClose();
+    skin.sides = sidesOf(tube.kind);
     rings_.push_back(skin);
     placed_.push_back(ring);
   }
 
   void place(const FormTube& tube, const FormRing& ring, std::size_t side, SkinVertex& vertex) {
     const Around around = aroundOf(tube.kind, side);
-    const bool hand = tube.kind == Kind::ARM && ring.along > WRIST;
-    const SinCos turn = sinCosTurns(hand ? HAND_TURN : 0.0);
-    const Vec3 left = turn.cos * tube.left + turn.sin * tube.front;
-    const Vec3 front = turn.cos * tube.front - turn.sin * tube.left;
-    vertex.position =
-        tube.centreOf(ring) + around.left * ring.broad * left + around.front * ring.deep * front;
+    Vec3 left = tube.left, front = tube.front, curl = Vec3::Zero();
+    if (tube.kind == Kind::ARM && ring.along > WRIST) {
+      const HandAxes hand = handAxes(tube);
+      left = tube.side == 0 ? hand.back : Vec3(-hand.back);
+      front = hand.thumb;
+      curl = curlOf(ring.along - KNUCKLES) * hand.back;
+    }
+    vertex.position = tube.centreOf(ring) - curl + around.left * ring.broad * left +
+                      around.front * ring.deep * front;
     flatten(ring, side, tube, vertex);
-    vertex.cover = coverOf(tube.kind, ring, side, hair_ ? hair_->edge(columnOf(side)) : NO_HAIR);
-    if (covers_ && ring.along < UNDER_SKIRT && isLower(vertex.cover)) vertex.cover = Cover::SKIRT;
+    const double hairline = hair_ ? hair_->edgeAt(around) : NO_HAIR;
+    vertex.cover = coverOf(tube.kind, ring, side, hairline);
+    if (skirt_ > 0.0 && ring.along < skirt_ && isLower(vertex.cover))
+      vertex.cover = ring.along < UNDER_SKIRT ? Cover::SKIRT : Cover::SHANK;
     vertex.shade = ring.shade;
-    if (!isHidden(tube, ring)) raiseTo(form_, tube, vertex);
-    vertex.normal = tube.kind == Kind::EYE ? tube.along : form_.normal(vertex.position);
-    vertex.position += thicknessAt(tube, ring) * vertex.normal;
+    if (!isHidden(tube, ring) && !isBelowSleeves(tube, ring)) raiseTo(form_, tube, vertex);
+    vertex.normal = isEye(tube, ring.cover) ? tube.along : form_.normal(vertex.position);
+    vertex.position += thicknessAt(tube, ring, hairline) * vertex.normal;
+    if (tube.kind == Kind::TRUNK)
+      vertex.tucked = -TUCKED * smoothStep((BELT - ring.along) / (BELT - HEM_FROM)) * vertex.normal;
     shapeDetails(tube.kind, ring, side, around.left * left + around.front * front, vertex);
   }
 
-  // Clothes have hems, except below a skirt.
-  double thicknessAt(const FormTube& tube, const FormRing& ring) const {
+  // Clothes have hems. What lies below a skirt or hair is thinner.
+  double thicknessAt(const FormTube& tube, const FormRing& ring, double hairline) const {
+    if (tube.kind == Kind::HEAD)
+      return -BELOW_HAIR * smoothStep((ring.along - hairline + 0.004) / 0.012);
     const bool trunk = tube.kind == Kind::TRUNK;
     double out = trunk && ring.along > HEM_FROM && ring.along < HEM_TO ? HEM : 0.0;
-    if (covers_ && (trunk || tube.kind == Kind::LEG) && ring.along < 0.03) out -= HEM;
+    if (trunk && ring.along < waist_) out -= ring.along < 0.03 ? BELOW_SKIRT : 0.5 * BELOW_SKIRT;
+    if (tube.kind == Kind::LEG && skirt_ > 0.0 && ring.along < skirt_) out -= LEG_BELOW_SKIRT;
     return out;
   }
 
@@ -170,21 +211,23 @@ class SkinMaker {
 
   const BodyForm& form_;
   const HairForm* hair_;  // or null
-  bool covers_{false};    // a skirt covers the hips
+  double skirt_{0.0};     // length of a skirt or coat below the hips
+  double waist_{-1.0};    // height of its upper end, where the trunk is no longer below it
   SkinRings rings_;
   FormRings placed_;  // of rings_
 };
 
-SkinRings makeBody(crowd::Outfit outfit) {
-  const BodyForm form(outfit);
+SkinRings makeBody(crowd::Outfit outfit, bool long_sleeves) {
+  const BodyForm form(outfit, long_sleeves);
   SkinMaker maker(form, nullptr);
   for (const FormTube& tube : form.tubes())
     if (tube.kind != Kind::HEAD) maker.add(tube);
+  for (const FormTube& tube : fingerTubes(form)) maker.add(tube);
   return maker.take();
 }
 
 SkinRings makeHead(crowd::HairCut cut) {
-  const BodyForm form(crowd::Outfit::TROUSERS);
+  const BodyForm form(crowd::Outfit::TROUSERS, true);
   const HairForm hair(cut);
   SkinMaker maker(form, &hair);
   for (const FormTube& tube : form.tubes()) {
@@ -197,17 +240,19 @@ SkinRings makeHead(crowd::HairCut cut) {
 }
 
 template <typename Choice, typename Make>
-std::array<SkinRings, static_cast<std::size_t>(Choice::COUNT)> makeAll(Make make) {
-  std::array<SkinRings, static_cast<std::size_t>(Choice::COUNT)> out;
+auto makeAll(Make make) {
+  std::array<decltype(make(Choice())), static_cast<std::size_t>(Choice::COUNT)> out;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = make(static_cast<Choice>(i));
   return out;
 }
 
 }  // namespace
 
-const SkinRings& bodyTemplate(crowd::Outfit outfit) {
-  static const auto ALL = makeAll<crowd::Outfit>(makeBody);
-  return ALL[static_cast<std::size_t>(outfit)];
+const SkinRings& bodyTemplate(crowd::Outfit outfit, bool long_sleeves) {
+  static const auto ALL = makeAll<crowd::Outfit>([](crowd::Outfit choice) {
+    return std::array<SkinRings, 2>{makeBody(choice, false), makeBody(choice, true)};
+  });
+  return ALL[static_cast<std::size_t>(outfit)][long_sleeves ? 1 : 0];
 }
 
 const SkinRings& headTemplate(crowd::HairCut cut) {
