@@ -8,6 +8,7 @@
 
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
+#include "rviz/trees/folded_cards.h"
 #include "vegetation_sim/core/math/math.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
@@ -150,6 +151,7 @@ void DrawnTree::skin(const forest::Flutter& flutter) {
   for (Shape& shape : shapes_) {
     forest::skinBark(shape.mesh, poses_, at, shape.bark.positions.data());
     forest::skinLeaves(shape.mesh, poses_, at, flutter, shape.leaves.positions.data());
+    foldClusters(shape.mesh, shape.leaves.positions.data());
   }
 }
 
