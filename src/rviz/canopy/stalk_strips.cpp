@@ -51,13 +51,9 @@ class StalkStrips {
 
   std::vector<StalkStrip> of(const canopy::GrownPlant& grown) {
     if (!grown.stems.empty()) addStalk();
-    const std::vector<canopy::Leaf>& leaves = grown.leaves;
-    for (std::size_t i = 0; i < leaves.size();) {
-      std::size_t end = i + 1;
-      while (end < leaves.size() && leaves[end].root == leaves[end - 1].tip) ++end;
-      if (!isStalk(leaves[i])) addRibbon(leaves.data() + i, leaves.data() + end);
-      i = end;
-    }
+    // The tassel comes before the leaves, because displays omit the last strips of a distant plant.
+    addRibbons(grown.leaves, true);
+    addRibbons(grown.leaves, false);
     return std::move(out_);
   }
 
@@ -90,6 +86,17 @@ class StalkStrips {
     for (int piece = 0; piece < PIECES; ++piece)
       for (int face = 0; face < FACES; ++face)
         addFace(top_ * piece / PIECES, top_ * (piece + 1) / PIECES, face);
+  }
+
+  // Adds the thin ribbons, or the others.
+  void addRibbons(const std::vector<canopy::Leaf>& leaves, bool thin) {
+    for (std::size_t i = 0; i < leaves.size();) {
+      std::size_t end = i + 1;
+      while (end < leaves.size() && leaves[end].root == leaves[end - 1].tip) ++end;
+      if (isThin(leaves[i]) == thin && !isStalk(leaves[i]))
+        addRibbon(leaves.data() + i, leaves.data() + end);
+      i = end;
+    }
   }
 
   // Adds a face of the stalk between two heights. Its normals are those of a round stalk.
