@@ -25,6 +25,7 @@ constexpr double DEEP_COLOUR = 0.6;   // lightness of leaves on the ground
 constexpr double PALE_FOOT = 0.4;     // share of the stalk's colour at the foot of a blade
 constexpr double DRY_BELOW = 0.35;    // share of the height below which tips of leaves dry
 constexpr double STALK_LIGHT = 1.15;  // lightness of the stalk relative to its colour
+constexpr double WILTED = 0.35;       // share of the colour of dry leaves on the ground
 constexpr double ON_AXIS = 1e-6;      // [m]
 const Vec3 DRY(0.52, 0.43, 0.20);     // colour of dry leaves
 
@@ -47,7 +48,8 @@ class StalkStrips {
       : kind_(kind),
         plant_(plant),
         tall_(plant.scale * kind.height),
-        top_(std::min(STALK_TOP * tall_, height)) {}
+        top_(std::min(STALK_TOP * tall_, height)),
+        is_cut_(height < canopy::UNCUT) {}
 
   std::vector<StalkStrip> of(const canopy::GrownPlant& grown) {
     if (!grown.stems.empty()) addStalk();
@@ -75,11 +77,12 @@ class StalkStrips {
     return plant_.scale * kind_.stem_radius *
            (SHEATHED + (THIN_TOP - SHEATHED) * saturate(share_of_height / STALK_TOP));
   }
-  static double lightAt(double share) {
-    return DEEP_LIGHT + (1.0 - DEEP_LIGHT) * smoothStep(1.1 * share);
+  // Light falls on what is left of a plant that is cut.
+  double lightAt(double share) const {
+    return is_cut_ ? 1.0 : DEEP_LIGHT + (1.0 - DEEP_LIGHT) * smoothStep(1.1 * share);
   }
-  static double lightnessAt(double share) {
-    return DEEP_COLOUR + (1.0 - DEEP_COLOUR) * saturate(1.25 * share);
+  double lightnessAt(double share) const {
+    return is_cut_ ? 1.0 : DEEP_COLOUR + (1.0 - DEEP_COLOUR) * saturate(1.25 * share);
   }
 
   void addStalk() {
@@ -199,7 +202,8 @@ class StalkStrips {
 
   Vec3 colourOf(const canopy::Leaf& leaf, std::size_t end, double along) const {
     const Vec3 leafy = between(kind_.colour, kind_.colour_young, static_cast<double>(leaf.shade));
-    if (leaf.lies) return isThin(leaf) ? Vec3(STALK_LIGHT * kind_.stem_colour) : leafy;
+    if (leaf.lies)
+      return isThin(leaf) ? Vec3(STALK_LIGHT * kind_.stem_colour) : between(leafy, DRY, WILTED);
     if (isThin(leaf)) return TASSEL;
     const double share = shareOfHeight(end == 0 ? leaf.root : leaf.tip);
     const Vec3 foot = between(leafy, kind_.stem_colour, PALE_FOOT * (1.0 - 4.0 * along));
@@ -209,6 +213,7 @@ class StalkStrips {
   const canopy::PlantKind& kind_;
   const canopy::Plant& plant_;
   double tall_, top_;  // heights of the plant and of the end of its stalk [m]
+  bool is_cut_;
   std::vector<StalkStrip> out_;
 };
 

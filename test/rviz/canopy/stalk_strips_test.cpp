@@ -115,7 +115,7 @@ TEST(StalkStrips, LightFallsOffTowardsTheGround) {
   EXPECT_LT(low_green, high_green);
 }
 
-// What is cut off keeps its strips and lies.
+// What is cut off keeps its strips and lies; stubble is in the light.
 TEST(StalkStrips, WhatIsCutOffLies) {
   const canopy::GrownPlant grown = canopy::grow(maize(), plant(), 0.3);
   const std::vector<StalkStrip> strips = stripsCutAt(0.3);
@@ -125,6 +125,7 @@ TEST(StalkStrips, WhatIsCutOffLies) {
   EXPECT_EQ(std::count_if(strips.begin(), strips.end(),
                           [](const StalkStrip& strip) { return strip.leaf.lies; }),
             lying);
+  for (const StalkStrip& strip : strips) EXPECT_TRUE(strip.face < 0 || strip.paint.light[0] == 1.0);
 }
 
 }  // namespace
