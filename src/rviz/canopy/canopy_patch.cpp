@@ -65,6 +65,10 @@ void setUpright(double size, Vec3& root, Vec3& tip, Vec3& side) {
   root -= Vec3(0.0, 0.0, half);
 }
 
+Vec3 rolled(const Roll& roll, const Vec3& side, const Vec3& across) {
+  return static_cast<double>(roll.cos) * side + static_cast<double>(roll.sin) * across;
+}
+
 void setColour(const Vec3& rgb, double sun, VertexPaint& paint) {
   for (int i = 0; i < 3; ++i)
     paint.colour[i] = static_cast<std::uint8_t>(255.0 * std::clamp(rgb[i], 0.0, 1.0));
@@ -181,6 +185,10 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   const std::size_t count = grown.leaves.size();
   tops_.push_back(p.position + Vec3(0.0, 0.0, p.scale * kind.height));
   light_.push_back(lightAt(tops_.back()));
+  tallest_ = std::max(tallest_, p.scale * kind.height);
+  reach_ =
+      std::max(reach_, length(p.position - middle_) + p.scale * std::max(kind.height, kind.radius));
+  if (kind.shape == canopy::PlantShape::STALK) return addStrips(grown, layout, plant, height);
   const bool is_lit = light_.back().sun > 1.0 - SEEN && light_.back().sky > 1.0 - SEEN;
   const bool is_whole = !(height < canopy::UNCUT);
   const Share share = isRead(kind) && is_whole && is_lit ? Share::ALIKE : Share::OTHERS;
@@ -199,9 +207,18 @@ void CanopyPatch::grow(const canopy::Layout& layout, std::size_t plant, double h
   addStems(grown, kind.stem_colour);
   addRigid(grown, kind, p.kind);
   stem_owners_.resize(stem_paint_.size(), plant);
-  tallest_ = std::max(tallest_, p.scale * kind.height);
-  reach_ =
-      std::max(reach_, length(p.position - middle_) + p.scale * std::max(kind.height, kind.radius));
+}
+
+void CanopyPatch::addStrips(const canopy::GrownPlant& grown, const canopy::Layout& layout,
+                            std::size_t plant, double height) {
+  const canopy::Plant& p = layout.plants[plant];
+  const std::vector<StalkStrip> strips = stalkStrips(layout.kinds[p.kind], p, height, grown);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const float order = static_cast<float>(i) / static_cast<float>(strips.size());
+    leaves_.push_back({strips[i].leaf, plant, p.kind, Vec3::Zero(), LeafCut::RIBBON, Share::OTHERS,
+                       order, static_cast<int>(strips_.size()), strips[i].roll, strips[i].face});
+    strips_.push_back(strips[i].paint);
+  }
 }
 
 // Adds the rigid faces of a mesh.
@@ -320,6 +337,21 @@ VertexPaint CanopyPatch::ownPaintOf(const canopy::Layout& layout, const Drawn& d
   return out;
 }
 
+// Paints the four corners of a strip.
+void CanopyPatch::paintEnds(const StripPaint& strip, const SharedLight::Shares& around,
+                            VertexPaint* corners) const {
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const std::size_t end = corner / 2;
+    VertexPaint& paint = corners[corner];
+    const std::array<float, 2> place =
+        foliagePlace(LeafCut::RIBBON, strip.across[corner % 2], static_cast<float>(end));
+    paint = {{0.f, 0.f, 1.f}, {0, 0, 0, 255}, {place[0], place[1], 0.f}};
+    setNormal(strip.normals[corner], paint);
+    setColour(strip.colours[end], around.sun * strip.light[end], paint);
+    paint.place[2] = static_cast<float>(around.sky * strip.light[end]);
+  }
+}
+
 // Corners 2 and 3 are the tip of a face.
 std::array<float, 2> CanopyPatch::placeOf(const canopy::Layout& layout, const Drawn& drawn,
                                           int corner) const {
@@ -337,8 +369,19 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
   paint.clear();
   paint.reserve(4 * leaves_.size());
   double size = 0.0;
+  std::size_t counted = 0;
   for (const Drawn& drawn : leaves_) {
     const canopy::Leaf& leaf = drawn.leaf;
+    if (drawn.face <= 0) {
+      size += length(leaf.tip - leaf.root);
+      ++counted;
+    }
+    if (drawn.strip >= 0) {
+      paint.resize(paint.size() + 4);
+      paintEnds(strips_[static_cast<std::size_t>(drawn.strip)], lightAt(leaf.root),
+                &paint[paint.size() - 4]);
+      continue;
+    }
     const VertexPaint own = paintOf(layout, drawn, to_sun);
     for (int corner = 0; corner < 4; ++corner) {
       const std::array<float, 2> place = placeOf(layout, drawn, corner);
@@ -348,9 +391,9 @@ void CanopyPatch::build(const canopy::Layout& layout, const Vec3& to_sun) {
       paint.back().place[0] = place[0];
       paint.back().place[1] = place[1];
     }
-    size += length(leaf.tip - leaf.root);
   }
-  if (!leaves_.empty()) leaf_size_ = size / static_cast<double>(leaves_.size());
+  if (counted > 0) leaf_size_ = size / static_cast<double>(counted);
+  std::vector<StripPaint>().swap(strips_);
   std::vector<const Drawn*> leaves;
   for (const Drawn& drawn : leaves_) leaves.push_back(&drawn);
   positions_ = placeAtRest(leaves);
@@ -472,8 +515,14 @@ float* CanopyPatch::placeCorners(const canopy::MovedLeaf& moved, const Drawn& dr
   if (drawn.cut == LeafCut::PUFF) setUpright(PUFF_SIZE, root, tip, side);
   const double first = joined ? static_cast<double>(drawn.leaf.root_width) : 1.0;
   const double last = joined ? static_cast<double>(drawn.leaf.tip_width) : 1.0;
-  for (const Vec3& at : {Vec3(root - first * side), Vec3(root + first * side),
-                         Vec3(tip - last * side), Vec3(tip + last * side)})
+  Vec3 at_root = first * side, at_tip = last * side;
+  if (drawn.roll[1].sin != 0.f) {
+    const Vec3 across = cross(unit(tip - root, Vec3::UnitZ()), side);
+    at_root = first * rolled(drawn.roll[0], side, across);
+    at_tip = last * rolled(drawn.roll[1], side, across);
+  }
+  for (const Vec3& at :
+       {Vec3(root - at_root), Vec3(root + at_root), Vec3(tip - at_tip), Vec3(tip + at_tip)})
     for (int k = 0; k < 3; ++k) *out++ = static_cast<float>(at[k]);
   return out;
 }

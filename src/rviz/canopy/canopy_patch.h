@@ -11,6 +11,7 @@
 
 #include "ros/replicas/leafed_crowns.h"
 #include "rviz/canopy/plant_textures.h"
+#include "rviz/canopy/stalk_strips.h"
 #include "rviz/render/batch.h"
 #include "rviz/textures/foliage_texture.h"
 #include "rviz/textures/sky_texture.h"
@@ -73,15 +74,13 @@ class CanopyPatch {
   /// origin. Those that are alike are in random order.
   std::unique_ptr<Batch> copyAtRest(Ogre::SceneNode& node, const std::string& material,
                                     Share share) const;
-  /// Calls visit(leaf, plant) for every `stride`-th leaf of a share.
+  /// Calls visit(leaf, plant) for every `stride`-th leaf of a share, and for each piece of stalks.
   template <class Visit>
   void eachLeaf(Share share, std::size_t stride, const Visit& visit) const {
-    if (leafCount(share) == 0) return;
-    const bool mixed = leafCount(share) < leaves_.size();
     std::size_t number = 0;
-    for (std::size_t i = 0; i < leaves_.size(); i += mixed ? 1 : stride)
-      if (leaves_[i].share == share && (!mixed || number++ % stride == 0))
-        visit(leaves_[i].leaf, leaves_[i].owner);
+    for (const Drawn& drawn : leaves_)
+      if (drawn.share == share && (number++ % stride == 0 || drawn.face == 0))
+        visit(drawn.leaf, drawn.owner);
   }
   std::size_t leafCount(Share share) const {
     return share == Share::ALIKE ? alike_ : leaves_.size() - alike_;
@@ -105,9 +104,14 @@ class CanopyPatch {
     Vec3 in_ball;  // place in the unit ball of leaves
     LeafCut cut;
     Share share;
-    float order;  // leaves are drawn in rising order
+    float order;    // leaves are drawn in rising order
+    int strip{-1};  // index in strips_ while the patch is built; -1: painted as its kind
+    std::array<Roll, 2> roll{};
+    int face{-1};  // of a stalk
   };
   void grow(const canopy::Layout& layout, std::size_t plant, double height);
+  void addStrips(const canopy::GrownPlant& grown, const canopy::Layout& layout, std::size_t plant,
+                 double height);
   void finish(const canopy::Layout& layout, const PatchScene& scene);
   float* placeCorners(const canopy::MovedLeaf& moved, const Drawn& drawn, double grown,
                       float* out) const;
@@ -121,6 +125,8 @@ class CanopyPatch {
   VertexPaint paintOf(const canopy::Layout& layout, const Drawn& drawn, const Vec3& to_sun) const;
   VertexPaint ownPaintOf(const canopy::Layout& layout, const Drawn& drawn,
                          const Vec3& to_sun) const;
+  void paintEnds(const StripPaint& strip, const SharedLight::Shares& around,
+                 VertexPaint* corners) const;
   void build(const canopy::Layout& layout, const Vec3& to_sun);
   std::vector<float> placeAtRest(const std::vector<const Drawn*>& leaves) const;
 
@@ -136,6 +142,7 @@ class CanopyPatch {
   double reach_{0.0}, leaf_size_{0.1}, tallest_{0.0};
   std::vector<Drawn> leaves_;
   std::size_t alike_{0};  // leaves of Share::ALIKE
+  std::vector<StripPaint> strips_;
   std::vector<VertexPaint> leaf_paint_;
   std::vector<float> positions_;
   std::vector<float> stem_positions_;

@@ -21,6 +21,8 @@ constexpr double PICTURE_MARGIN = 1.35;               // of a picture, relative 
 constexpr double FADE = 0.4;                          // [s]
 constexpr double SHORTEST_INTERVAL = 0.3;             // [s] between renderings for another eye
 constexpr double NEAR_CLIP = 0.1, FAR_CLIP = 2000.0;  // [m]
+constexpr double LONGEST_PART = 80.0;                 // [pixel] of a leaf between two points
+constexpr double MOST_PARTS = 9.0;                    // of a leaf
 constexpr std::size_t MOST_POINTS = 60000;            // leaves that all grids follow from
 constexpr std::size_t TRIANGLES_AT_ONCE = 200000;
 // Triangles for each pixel of a plant that shares them: further ones are hidden behind these.
@@ -133,8 +135,13 @@ LayerImages::Pictures LayerImages::makePictures(const canopy::Foliage& foliage, 
   leaves_->eachLeaf(stride, [&](const canopy::Leaf& leaf, std::size_t plant) {
     const auto layer = static_cast<std::size_t>(foliage.layerAt(leaf.anchor));
     leaves[layer] += stride;
-    for (const Vec3& at : {leaf.root, leaf.tip})
+    const double pixels = length(leaf.tip - leaf.root) * view.eye.pixels_per_radian /
+                          std::max(NEAR_CLIP, frame_.depthOf(leaf.root));
+    const int parts = 1 + static_cast<int>(std::min(pixels / LONGEST_PART, MOST_PARTS));
+    for (int i = 0; i <= parts; ++i) {
+      const Vec3 at = leaf.root + (leaf.tip - leaf.root) * i / parts;
       grids[layer].add({at, leaf.anchor, foliage.freedomOf(at, plant)});
+    }
   });
   Pictures out;
   for (std::size_t layer = 0; layer < grids.size(); ++layer) {

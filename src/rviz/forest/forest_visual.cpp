@@ -64,7 +64,9 @@ ForestVisual::ForestVisual(Ogre::SceneNode& parent)
       fading_leaf_material_(Material::Kind::LEAVES, uniqueName("fading_leaf_material"),
                             {leaf_texture_.name()}, Material::Variant::FADING),
       fading_bark_material_(Material::Kind::BARK, uniqueName("fading_bark_material"),
-                            {bark_texture_.name()}, Material::Variant::FADING) {}
+                            {bark_texture_.name()}, Material::Variant::FADING),
+      near_leaf_material_(Material::Kind::LEAVES, uniqueName("near_leaf_material"),
+                          {leaf_texture_.name()}, Material::Variant::NEAR) {}
 
 ForestVisual::~ForestVisual() {
   pieces_.clear();
@@ -123,12 +125,16 @@ void ForestVisual::applyDelta() {
   std::vector<DrawnTree*> trees;
   for (const auto& tree : tree_set_->trees()) trees.push_back(tree.get());
   if (trees.empty()) return;
-  const TreeMaterials materials{bark_material_.name(), leaf_material_.name(),
-                                fading_bark_material_.name(), fading_leaf_material_.name()};
+  const TreeMaterials materials = treeMaterials();
   for (auto& group : splitByPlace(std::move(trees), TREES_PER_BATCH))
     tree_batches_.push_back(std::make_unique<TreeBatch>(std::move(group), *node_, materials));
   if (!follows) return;
   for (const auto& batch : tree_batches_) batch->rebuild();
+}
+
+TreeMaterials ForestVisual::treeMaterials() const {
+  return {bark_material_.name(), leaf_material_.name(), fading_bark_material_.name(),
+          fading_leaf_material_.name(), near_leaf_material_.name()};
 }
 
 void ForestVisual::repaint() {
@@ -138,8 +144,8 @@ void ForestVisual::repaint() {
 }
 
 void ForestVisual::light(const Daylight& daylight, const Vec3& to_sun, const Haze& haze) {
-  for (Material* material :
-       {&leaf_material_, &bark_material_, &fading_leaf_material_, &fading_bark_material_})
+  for (Material* material : {&leaf_material_, &bark_material_, &fading_leaf_material_,
+                             &fading_bark_material_, &near_leaf_material_})
     material->light(daylight, to_sun, haze);
 }
 
@@ -157,7 +163,7 @@ void ForestVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
   chooseLevels(replica, view, options);
   move(replica, stamp, view, options);
   updatePieces(replica);
-  movePieces(replica, stamp, options);
+  movePieces(replica, stamp, view, options);
   measure(view, options);
 }
 
@@ -219,6 +225,7 @@ void ForestVisual::chooseLevels(const forest::ForestReplica& replica, const View
   bool still = true;
   for (const auto& batch : tree_batches_) {
     batch->setRank(rank++);
+    batch->setEye(view.eye.position);
     bool changed = false;
     for (DrawnTree* tree : batch->trees()) {
       const int before = tree->fading() ? 1 : 0;
@@ -288,21 +295,20 @@ ForestVisual::Piece ForestVisual::growPiece(const forest::ForestReplica& replica
       replica, tree, tree_set_->origin(),
       std::make_shared<const forest::FallingPiece>(replica.layout(), replica.terrain(), tree,
                                                    brokenOf(replica.broken(), tree), number));
-  out.batch = std::make_unique<TreeBatch>(
-      std::vector<DrawnTree*>{out.tree.get()}, *node_,
-      TreeMaterials{bark_material_.name(), leaf_material_.name(), fading_bark_material_.name(),
-                    fading_leaf_material_.name()});
+  out.batch =
+      std::make_unique<TreeBatch>(std::vector<DrawnTree*>{out.tree.get()}, *node_, treeMaterials());
   return out;
 }
 
 // A piece has the level of detail of its tree.
 void ForestVisual::movePieces(const forest::ForestReplica& replica, Nanoseconds stamp,
-                              const Options& options) {
+                              const View& view, const Options& options) {
   const wind::Instant wind = replica.wind().at(stamp);
   for (auto& entry : pieces_) {
     Piece& piece = entry.second;
     const int level = tree_set_->find(piece.tree->id())->level();
     if (level < 0) continue;
+    piece.batch->setEye(view.eye.position);
     const bool changed = level != piece.tree->level();
     if (changed) {
       piece.tree->setLevels({level, {}}, tree_set_->light(), options.look);

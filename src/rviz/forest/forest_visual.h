@@ -77,13 +77,16 @@ class ForestVisual {
   void move(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
             const Options& options);
   void updatePieces(const forest::ForestReplica& replica);
+  TreeMaterials treeMaterials() const;
   Piece growPiece(const forest::ForestReplica& replica, std::uint32_t tree, std::size_t number);
-  void movePieces(const forest::ForestReplica& replica, Nanoseconds stamp, const Options& options);
+  void movePieces(const forest::ForestReplica& replica, Nanoseconds stamp, const View& view,
+                  const Options& options);
   void measure(const View& view, const Options& options);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us
   Texture leaf_texture_, bark_texture_;
-  Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_;
+  Material leaf_material_, bark_material_, fading_leaf_material_, fading_bark_material_,
+      near_leaf_material_;
   std::unique_ptr<TreeSet> tree_set_, next_;  // drawn; growing
   std::size_t prepared_{0};                   // number of the next trees with a mesh
   std::vector<std::unique_ptr<TreeBatch>> tree_batches_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rviz/render/material.h"
 #include "rviz/render/texture.h"
 
 namespace vegetation_sim::view {
@@ -95,10 +96,26 @@ void TreeBatch::rebuild() {
                 paintOf(trees_, &DrawnTree::Shape::leaves),
                 leafTriangles(trees_, middle_ + 1000.0 * sorted_for_), margin);
   built_ = true;
-  const bool fading = std::any_of(trees_.begin(), trees_.end(),
-                                  [](const DrawnTree* tree) { return tree->fading(); });
-  bark_.wear(fading ? materials_.fading_bark : materials_.bark);
-  leaves_.wear(fading ? materials_.fading_leaves : materials_.leaves);
+  fading_ = std::any_of(trees_.begin(), trees_.end(),
+                        [](const DrawnTree* tree) { return tree->fading(); });
+  wear();
+}
+
+void TreeBatch::wear() {
+  bark_.wear(fading_ ? materials_.fading_bark : materials_.bark);
+  leaves_.wear(fading_ ? materials_.fading_leaves
+               : near_ ? materials_.near_leaves
+                       : materials_.leaves);
+}
+
+void TreeBatch::setEye(const Vec3& eye) {
+  const bool near = std::any_of(trees_.begin(), trees_.end(), [&](const DrawnTree* tree) {
+    const Vec3 middle = tree->foot() + Vec3(0.0, 0.0, 0.5 * tree->height());
+    return length(eye - middle) < Material::NEAR_END + tree->reach() + 0.5 * tree->height();
+  });
+  if (near == near_) return;
+  near_ = near;
+  if (built_) wear();
 }
 
 void TreeBatch::takePositions() {

@@ -13,9 +13,9 @@
 
 namespace vegetation_sim::view {
 
-/// Names of the materials of trees, and of trees that fade.
+/// Names of the materials of trees, of trees that fade and of leaves near the eye.
 struct TreeMaterials {
-  std::string bark, leaves, fading_bark, fading_leaves;
+  std::string bark, leaves, fading_bark, fading_leaves, near_leaves;
 };
 
 /// Trees that stand together and are drawn with two batches, bark and leaves. Render thread only.
@@ -35,6 +35,8 @@ class TreeBatch {
   void takePaint();
   bool takeSeen();
   void setRank(int rank);
+  /// Draws leaves with the material that suits their distance from a viewer (frame of the layout).
+  void setEye(const Vec3& eye);
   /// Sorts leaves front to back for a viewer (frame of the layout), so that hidden ones cost
   /// little. Returns false if they are sorted for about this direction already.
   bool sortFor(const Vec3& eye);
@@ -43,11 +45,13 @@ class TreeBatch {
   Nanoseconds moved_to{-1};
 
  private:
+  void wear();
+
   std::vector<DrawnTree*> trees_;
   Vec3 middle_{Vec3::Zero()};
   TreeMaterials materials_;
   Batch bark_, leaves_;
-  bool built_{false};
+  bool built_{false}, fading_{false}, near_{false};
   Vec3 sorted_for_{Vec3::Zero()};  // direction to the viewer
 };
 

@@ -16,6 +16,8 @@ namespace vegetation_sim::view {
 namespace {
 
 const char* const GROUP = "General";  // Ogre's default resource group
+constexpr float EDGE_SINE = 0.35f;    // of the angle to the view at which near leaves begin to go
+constexpr float NEAR_START = 6.f;     // [m] beyond which this angle becomes less
 
 Ogre::HighLevelGpuProgramPtr makeProgram(const std::string& name, const std::string& source,
                                          Ogre::GpuProgramType type) {
@@ -77,6 +79,7 @@ void makeLayer(Ogre::Pass& pass) {
 
 const char* headOf(Material::Variant variant) {
   if (variant == Material::Variant::FADING) return FADING_HEAD;
+  if (variant == Material::Variant::NEAR) return NEAR_HEAD;
   return variant == Material::Variant::LAYERED ? LAYERED_HEAD : HEAD;
 }
 
@@ -191,6 +194,9 @@ void Material::light(const Daylight& daylight, const Vec3& to_sun, const Haze& h
   const bool leaves = kind_ == Kind::LEAVES;
   vertex.setNamedConstant("leaf", leaves ? Ogre::Vector4(0.5f, 0.8f, 0.75f, 0.14f)
                                          : Ogre::Vector4(0.15f, 0.f, 0.55f, 0.f));
+  if (variant_ == Variant::NEAR || variant_ == Variant::FADING)
+    vertex.setNamedConstant("edges", Ogre::Vector4(leaves ? EDGE_SINE : 0.f, NEAR_START,
+                                                   1.f / (NEAR_END - NEAR_START), 0.f));
 }
 
 void Material::setFadeClock(float clock) {

@@ -26,7 +26,10 @@ class Material {
   /// LAYER: the picture of a layer of leaves.
   enum class Kind { BARK, LEAVES, GROUND, SKY, BLADES, STRIPS, SHADOWS, LAYER };
   /// FADING: vertices fade by VertexPaint::fade. LAYERED: only leaves of the layer of setLayer().
-  enum class Variant { WHOLE, FADING, LAYERED };
+  /// NEAR, and FADING: leaves near the eye go as they are seen on edge.
+  enum class Variant { WHOLE, FADING, LAYERED, NEAR };
+  /// Distance beyond which NEAR and WHOLE look alike [m].
+  static constexpr float NEAR_END = 14.f;
 
   /// @param textures names of the texture and, for the ground, of its grain; none for blades.
   /// @param variant of bark and leaves.

@@ -9,11 +9,13 @@ namespace vegetation_sim::view {
 
 constexpr const char* HEAD = "#version 120\n";
 constexpr const char* LAYERED_HEAD = "#version 120\n#define LAYERED\n";
-constexpr const char* FADING_HEAD = "#version 120\n#define FADING\n";
+constexpr const char* FADING_HEAD = "#version 120\n#define FADING\n#define NEAR\n";
+constexpr const char* NEAR_HEAD = "#version 120\n#define NEAR\n";
 
 // LAYERED draws the leaves of one layer, selected by their anchors, opaque on nothing.
 // Meshes of two levels of a tree fade into one another pixel by pixel, without any order: what
 // comes shows where a pattern is below the part that shows, what goes where it is not.
+// NEAR omits in the same way triangles near the eye that are seen almost on edge, as streaks.
 constexpr const char* PLANT_VERTEX = R"(uniform mat4 world_view_projection;
 uniform vec4 eye;           // in the object's frame
 uniform vec4 to_sun;        // in the object's frame
@@ -25,6 +27,10 @@ varying vec2 place;
 #ifdef FADING
 uniform vec4 fade_clock;
 varying float shown;  // part of what comes; of what goes less 1
+#endif
+#ifdef NEAR
+uniform vec4 edges;  // sine of the angle to the view at which they begin to go; near, 1 / length
+varying vec4 ray;    // from the eye; w: this sine, less far away
 #endif
 #ifdef LAYERED  // eye and sun are in the scene's frame
 uniform mat4 world;
@@ -50,6 +56,9 @@ void main() {
 #endif
   vec3 view = at - eye.xyz;
   float far = length(view);
+#ifdef NEAR
+  ray = vec4(view, edges.x * clamp(1.0 - (far - edges.y) * edges.z, 0.0, 1.0));
+#endif
   float facing = (dot(normal, to_sun.xyz) + leaf.x) / (1.0 + leaf.x);
   float against = max(dot(view / far, to_sun.xyz), 0.0);
   float through = leaf.y * (0.25 + against * against * against);
@@ -72,9 +81,17 @@ varying vec2 place;
 #ifdef FADING
 varying float shown;
 #endif
+#ifdef NEAR
+varying vec4 ray;
+#endif
 void main() {
-#ifdef FADING
+#ifdef NEAR
   float pattern = fract(dot(floor(gl_FragCoord.xy), vec2(0.7548777, 0.5698403)));
+  vec3 normal = cross(dFdx(ray.xyz), dFdy(ray.xyz));
+  float across = dot(normal, ray.xyz), least = ray.w * (0.4 + 0.6 * pattern);
+  if (across * across < least * least * dot(normal, normal) * dot(ray.xyz, ray.xyz)) discard;
+#endif
+#ifdef FADING
   if (shown > 0.0 ? pattern >= shown : pattern < shown + 1.0) discard;
 #endif
   vec4 paint = texture2D(picture, place);

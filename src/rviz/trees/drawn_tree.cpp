@@ -8,8 +8,10 @@
 
 #include "rviz/textures/bark_texture.h"
 #include "rviz/textures/leaf_atlas.h"
+#include "rviz/trees/folded_cards.h"
 #include "rviz/trees/limb_ends.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 #include "vegetation_sim/tree/motion/batch_poser.h"
 
 namespace vegetation_sim::view {
@@ -17,6 +19,10 @@ namespace {
 
 constexpr double VISIBLE_FLUTTER = 0.4;  // [pixel]
 constexpr double BREATH = 0.15;          // [m/s] slower wind moves no leaf
+constexpr double LIMB_VARIETY = 0.14;    // +- lightness of leaves from limb to limb
+constexpr double LIT_EDGE = 1.1;         // lightness of the leaves at the edge of a crown
+constexpr double DEEP_SHADE = 0.32;      // loss of lightness in the middle of a crown
+constexpr std::uint64_t LIMB_DRAW = 0x6c696d62;
 constexpr forest::Colour MOVES{0.86f, 0.22f, 0.12f}, CHANGES{0.25f, 0.72f, 0.20f},
     PHYSICAL{0.10f, 0.35f, 0.90f}, HELD{0.95f, 0.80f, 0.08f};
 
@@ -31,6 +37,29 @@ void setColour(const forest::Colour& colour, VertexPaint& paint) {
 void setNormal(const Vec3& normal, VertexPaint& paint) {
   const Vec3 unit = normal / std::max(length(normal), 1e-9);
   for (int i = 0; i < 3; ++i) paint.normal[i] = static_cast<float>(unit[i]);
+}
+
+void scale(double factor, forest::Colour& colour) {
+  for (float& part : colour) part *= static_cast<float>(factor);
+}
+
+// Returns the lightness of the leaves of each branch: that of its limb, which stands out from
+// others.
+std::vector<double> limbLightness(const forest::Skeleton& skeleton) {
+  std::vector<double> out;
+  for (const forest::Branch& branch : skeleton.branches) {
+    const auto parent = static_cast<std::size_t>(std::max(branch.parent, 0));
+    const bool begins = branch.depth > 0 && skeleton.branches[parent].depth == 0;
+    out.push_back(begins ? 1.0 + Random(branch.key).uniform(LIMB_DRAW, -LIMB_VARIETY, LIMB_VARIETY)
+                  : branch.depth > 0 && branch.parent >= 0 ? out[parent]
+                                                           : 1.0);
+  }
+  return out;
+}
+
+// Returns the lightness of leaves by their place in the crown: 0 in its middle, 1 at its edge.
+double crownLightness(double place) {
+  return LIT_EDGE - DEEP_SHADE * (1.0 - smoothStep((place - 0.2) / 0.65));
 }
 
 double radiusOf(const forest::BarkVertex& vertex) {
@@ -152,6 +181,7 @@ void DrawnTree::skin(const forest::Flutter& flutter) {
   for (Shape& shape : shapes_) {
     forest::skinBark(shape.mesh, poses_, at, shape.bark.positions.data());
     forest::skinLeaves(shape.mesh, poses_, at, flutter, shape.leaves.positions.data());
+    foldClusters(shape.mesh, shape.leaves.positions.data());
   }
 }
 
@@ -216,11 +246,15 @@ void DrawnTree::paintLeaves(const forest::LightGrid& light, Shape& shape) {
     middle += inLayout(&shape.leaves.positions[i]);
   middle /= static_cast<double>(shape.leaves.positions.size() / 3);
   const Vec3 extent(reach() + 0.1, reach() + 0.1, 0.5 * height() + 0.1);
+  const std::vector<double> limbs = limbLightness(tree_.skeleton);
   for (std::size_t card = 0; card < shape.mesh.leaves.size(); ++card) {
     const std::size_t first = forest::LEAF_CORNERS * card;
     const Vec3 centre = 0.5 * (inLayout(&shape.leaves.positions[3 * first]) +
                                inLayout(&shape.leaves.positions[3 * first + 6]));
-    const forest::Colour colour = paint_.leaf(shape.mesh.leaves[card]);
+    forest::Colour colour = paint_.leaf(shape.mesh.leaves[card]);
+    scale(limbs[static_cast<std::size_t>(shape.mesh.leaves[card].branch)] *
+              crownLightness(length(Vec3(centre - middle).cwiseQuotient(extent))),
+          colour);
     const double sun = light.sun(centre), sky = light.sky(centre);
     for (std::size_t i = 0; i < forest::LEAF_CORNERS; ++i) {
       VertexPaint& paint = shape.leaves.paint[first + i];

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "rviz/render/batch.h"
+#include "rviz/render/material.h"
+#include "rviz/render/texture.h"
 #include "rviz/rigs/display_checks.h"
 #include "rviz/rigs/display_rig.h"
 #include "tree/mesh/bark_mesh.h"
@@ -52,6 +55,69 @@ class ForestDisplayTest : public testing::Test {
   DisplayRig& rig{*shared_rig};
   ForestDisplay* display{nullptr};
 };
+
+/// A square of leaves above the forest in front of the camera.
+class SquareOfLeaves {
+ public:
+  /// @param distance from the eye [m]; the picture of the square does not depend on it.
+  /// @param tilt angle of its plane to the view [rad].
+  SquareOfLeaves(DisplayRig& rig, view::Material::Variant variant, double distance, double tilt)
+      : texture_(view::uniqueName("square_picture"), {view::Image(16, 16, {1.f, 1.f, 1.f, 1.f})}),
+        material_(view::Material::Kind::LEAVES, view::uniqueName("square_material"),
+                  {texture_.name()}, variant),
+        batch_(view::uniqueName("square"), material_.name()),
+        node_(rig.manager().getSceneManager()->getRootSceneNode()->createChildSceneNode()) {
+    material_.light(view::Daylight(), Vec3::UnitZ(), view::Haze());
+    rig.lookAt(HEIGHT, 0.0, distance);
+    const Vec3 away(-std::cos(0.8), -std::sin(0.8), 0.0);  // from the eye, as in lookAt()
+    const Vec3 along = std::cos(tilt) * away + std::sin(tilt) * Vec3::UnitZ();
+    const Vec3 across = cross(away, Vec3::UnitZ());
+    std::vector<float> positions;
+    for (const auto& [x, y] :
+         {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+      const Vec3 at = Vec3(0, 0, HEIGHT) + distance / 6.0 * (x * across + y * along);
+      for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(at[k]));
+    }
+    const view::VertexPaint paint{{0.f, 0.f, 1.f}, {250, 20, 20, 255}, {0.5f, 0.5f, 1.f}};
+    batch_.build(positions, std::vector<view::VertexPaint>(4, paint), {0, 1, 2, 0, 2, 3}, 0.f);
+    node_->attachObject(&batch_);
+  }
+  ~SquareOfLeaves() { node_->getCreator()->destroySceneNode(node_); }
+  SquareOfLeaves(const SquareOfLeaves&) = delete;
+  SquareOfLeaves& operator=(const SquareOfLeaves&) = delete;
+
+ private:
+  static constexpr float HEIGHT = 60.f;  // [m]
+
+  view::Texture texture_;
+  view::Material material_;
+  view::Batch batch_;
+  Ogre::SceneNode* node_;
+};
+
+// Near the eye, leaves that are seen almost on edge go, but not with the material of others, not
+// far away and not from their face.
+TEST_F(ForestDisplayTest, LeavesNearTheEyeGoAsTheyAreSeenOnEdge) {
+  using Variant = view::Material::Variant;
+  const auto redPixels = [&](Variant variant, double distance, double tilt) {
+    const SquareOfLeaves square(rig, variant, distance, tilt);
+    const std::vector<std::uint8_t> pixels = steadyPicture(rig);
+    int out = 0;
+    for (std::size_t i = 0; i + 2 < pixels.size(); i += 3)
+      out += pixels[i] > 2 * pixels[i + 1] && pixels[i] > 2 * pixels[i + 2] ? 1 : 0;
+    return out;
+  };
+  const int on_edge = redPixels(Variant::NEAR, 3.0, 0.08);
+  const int others = redPixels(Variant::WHOLE, 3.0, 0.08);
+  const int far = redPixels(Variant::NEAR, 30.0, 0.08);
+  const int face = redPixels(Variant::NEAR, 3.0, 0.8);
+  std::cout << "red pixels: " << on_edge << " on edge, " << others << " of others, " << far
+            << " far away, " << face << " from the face\n";
+  EXPECT_GT(others, 500);
+  EXPECT_LT(on_edge, others / 10);
+  EXPECT_NEAR(far, others, 0.2 * others);
+  EXPECT_GT(face, 5 * others);
+}
 
 // With the property, the ground differs between two instants of a gust; without it, it does not.
 // The camera sees ground between the trees and nothing else.

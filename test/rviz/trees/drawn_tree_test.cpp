@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scenes/forest/physics_scene.h"
+#include "tree/mesh/paint.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -111,6 +114,27 @@ TEST(DrawnTree, APieceFallsBesideItsTree) {
   ASSERT_TRUE(viewer.move(piece));
   EXPECT_NEAR(lowest(), 0.0, 0.05);  // wood has a thickness around its axis
   EXPECT_FALSE(viewer.move(piece));
+}
+
+// Limbs differ in lightness, and leaves inside a crown are darker than at its edge.
+TEST(DrawnTree, LimbsAndTheEdgeOfACrownStandOut) {
+  RegisteredViewer viewer;
+  DrawnTree tree(viewer.replica, 0, Vec3::Zero());
+  tree.setLevels({forest::GEOMETRY_LEVELS - 1, {}},
+                 forest::LightGrid(Vec3(-9, -9, -1), Vec3(9, 9, 12), 1.0), TreeLook());
+  const forest::Tree& source = viewer.rig.tree;
+  const forest::TreePaint plain(viewer.replica.layout().species.at(source.seed.species),
+                                source.seed.seed);
+  const DrawnTree::Shape& shape = tree.shapes().front();
+  std::vector<double> lightness;
+  for (std::size_t card = 0; card < shape.mesh.leaves.size(); ++card) {
+    const auto green = static_cast<double>(plain.leaf(shape.mesh.leaves[card])[1]);
+    lightness.push_back(shape.leaves.paint[4 * card].colour[1] / (255.0 * green));
+  }
+  ASSERT_GT(lightness.size(), 100u);
+  std::sort(lightness.begin(), lightness.end());
+  EXPECT_LT(lightness[lightness.size() / 20], 0.95);
+  EXPECT_GT(lightness[lightness.size() - lightness.size() / 20], 1.08);
 }
 
 }  // namespace
