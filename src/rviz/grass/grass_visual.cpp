@@ -18,11 +18,13 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_EDGE = 128;
-constexpr int ROWS = 3;                 // of strips in a tile, each way
-constexpr double STILL = 1e-4;          // [m], [rad] a viewer moves without effect
-constexpr double LARGEST_FADE = 0.05;   // part of a transition between two updates
-constexpr double FULLY_GROWN = 0.3;     // missing share with full strips
-constexpr double SIBLING_SPREAD = 0.6;  // per distance of neighbours
+constexpr int ROWS = 3;                // of strips in a tile, each way
+constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
+constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
+constexpr double FULLY_GROWN = 0.3;    // missing share with full strips
+constexpr double BORDER = 0.07;  // part of the map over which strips get fewer towards its border
+constexpr double LEAST_AT_BORDER = 0.2;  // share of the strips
+constexpr double SIBLING_SPREAD = 0.6;   // per distance of neighbours
 
 // Painted once per process.
 const std::vector<Image>& sharedStrips() {
@@ -71,6 +73,16 @@ double squareDistance(const grass::TileView& tile, const grass::MapLaw& law, con
   const double x = law.origin_x + law.resolution * (tile.column + 0.5) - eye.x();
   const double y = law.origin_y + law.resolution * (tile.row + 0.5) - eye.y();
   return x * x + y * y;
+}
+
+// Returns the share of strips at a distance from the border of the map, where a meadow that looks
+// cut off would look like an island.
+double borderShare(const grass::TileView& tile, const grass::MapLaw& law) {
+  const int column = std::min(tile.column, law.columns - 2 - tile.column);
+  const int row = std::min(tile.row, law.rows - 2 - tile.row);
+  const double inside = law.resolution * (std::min(column, row) + 0.5);
+  const double border = BORDER * law.resolution * (std::min(law.columns, law.rows) - 1);
+  return LEAST_AT_BORDER + (1.0 - LEAST_AT_BORDER) * saturate(inside / border);
 }
 
 void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {
@@ -230,7 +242,9 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
 void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
                           const grass::TileView& view, double missing, const Options& options) {
   const double from_above = grass::layerWeight(view.elevation);
-  const double strip = view.morph.strip, beside = smoothStep(missing / FULLY_GROWN);
+  // Without single blades strips take their place.
+  const double strip = view.morph.blades && !options.blades ? 1.0 : view.morph.strip;
+  const double beside = smoothStep(missing / FULLY_GROWN);
   const double upright = (strip + beside * (1.0 - strip)) * (1.0 - from_above);
   const StripsBegin begin(strip_mesh_);
   if (upright > 0.0 && options.edge_strips)
@@ -239,7 +253,8 @@ void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& moti
   else if (upright > 0.0)
     appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
   ruffleStrips(tile, begin, strip_mesh_);
-  thinStrips(tile, begin, 1.0 - beside * (1.0 - missing) * (1.0 - strip), strip_mesh_);
+  const double share = 1.0 - beside * (1.0 - missing) * (1.0 - strip);
+  thinStrips(tile, begin, share * borderShare(view, levels_.map().law()), strip_mesh_);
   if (from_above > 0.0 && strip > 0.0)
     appendLayers(levels_.map(), tile, motion, view.layers, strip * from_above, full_density_,
                  layer_mesh_, &light_);

@@ -20,6 +20,7 @@ constexpr double LOWEST = 0.75, HIGHEST = 1.15;    // factor of the height
 constexpr double DARKEST = 0.84, LIGHTEST = 1.14;  // factor of the colour
 constexpr double LEAN = 0.32;                      // of a top to either side, per height
 constexpr double SOFT = 0.35;                      // of the ends of tufts
+constexpr double ROOTS = 0.5;  // share of the blades that reach the ground, for a ragged foot
 
 // Random numbers of a part of a tile.
 class StripDice {
@@ -115,6 +116,7 @@ void ruffleStrips(const grass::Tile& tile, const StripsBegin& begin, grass::Gras
     offset.x() += dice.between(index + 1, -reach, reach);
     offset.y() += dice.between(index + 2, -reach, reach);
     put(root + offset, i + 1, mesh);
+    fade(ROOTS, i, mesh);
     const double light = dice.between(index + 3, DARKEST, LIGHTEST);
     for (const std::size_t vertex : {i, i + 1}) tone(light, &mesh.colours[4 * vertex]);
   }

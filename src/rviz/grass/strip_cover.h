@@ -14,8 +14,8 @@ struct StripsBegin {
   std::size_t vertex, index;
 };
 
-/// Gives the strips of a tile random heights and lightnesses, and lets their tops lean to both
-/// sides, so that they do not look like fences from above.
+/// Gives the strips of a tile random heights and lightnesses, lets their tops lean to both sides,
+/// and lets fewer blades reach the ground, so that they do not look like fences from above.
 void ruffleStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassMesh& mesh);
 
 /// Leaves a share of the strips of a tile: tufts with soft ends. What shows nothing is removed.
