@@ -10,6 +10,7 @@ namespace {
 
 constexpr int GROUND_RANK = 2;          // the ground has tracks
 constexpr int BARE_RANK = -1;           // of a meadow where nothing grows
+constexpr float STRIPS_REACH = 2.f;     // of darker ground below strips, in reaches of blades
 constexpr double PRUNING_PERIOD = 0.5;  // [s]
 constexpr double LEAST_BLADES = 1000.0;
 
@@ -76,7 +77,7 @@ void GrassDisplay::draw(Nanoseconds stamp, const view::View& view) {
   if (view::isPaintable(*source_->layout().map) && givesGround(*source_->terrain())) makeGround();
   if (!ground_) return;
   ground_->update(*source_, source_->takePressed(), stamp);
-  ground_->darken(grass_->bladesReach());
+  ground_->darken(STRIPS_REACH * grass_->bladesReach());
 }
 
 void GrassDisplay::makeGround() {

@@ -32,8 +32,8 @@ void GrassProperties::addTopics(rviz::Display& display) {
 void GrassProperties::addLook(rviz::Display& display) {
   most_blades_ = new rviz::IntProperty(
       "Blades", 25000,
-      "Largest number of single blades in the picture. Farther blades become fewer and wider, "
-      "then strips.",
+      "Largest number of single blades in the picture. Farther blades become fewer, then "
+      "strips stand among them, then strips alone.",
       &display, SLOT(updateLook()), &display);
   most_blades_->setMin(1000);
   most_blades_->setMax(2000000);
@@ -42,7 +42,7 @@ void GrassProperties::addLook(rviz::Display& display) {
   strips_ = addFlag("Strips", true, "Draw strips and layers farther away.", display);
   edge_strips_ = addFlag("Strips on Edges", false,
                          "Draw four strips on the edges of a tile, as paper 2 has them, instead of "
-                         "rows in it: fewer triangles, but tiles are visible.",
+                         "rows in it: fewer triangles.",
                          display);
   variety_ =
       addNumber("Variety", 1.f, "How much colour, length and lean differ from blade to blade.", 0.f,

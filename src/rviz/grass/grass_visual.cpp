@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "rviz/grass/blade_shade.h"
+#include "rviz/grass/strip_cover.h"
 #include "rviz/ground/blob_visual.h"
 #include "rviz/ground/meadow_texture.h"
 #include "rviz/render/batch.h"
+#include "vegetation_sim/core/math/math.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -19,10 +21,10 @@ constexpr int STRIP_COLUMNS = 512, STRIP_ROWS = 128, STRIP_BLADES = 130, LAYER_E
 constexpr int ROWS = 3;                // of strips in a tile, each way
 constexpr double STILL = 1e-4;         // [m], [rad] a viewer moves without effect
 constexpr double LARGEST_FADE = 0.05;  // part of a transition between two updates
-constexpr double LEAVING = 0.5;        // part of the blades that become narrower
-constexpr double SIBLINGS_FADE = 3.0, SIBLINGS_END = 7.0;  // [m] where siblings narrow to nothing
-constexpr double NARROWEST_SIBLING = 0.05;                 // factor of the width
-constexpr double SIBLING_SPREAD = 0.6;                     // per distance of neighbours
+constexpr double FULLY_GROWN = 0.3;    // missing share with full strips
+constexpr double BORDER = 0.07;  // part of the map over which strips get fewer towards its border
+constexpr double LEAST_AT_BORDER = 0.2;  // share of the strips
+constexpr double SIBLING_SPREAD = 0.6;   // per distance of neighbours
 
 // Painted once per process.
 const std::vector<Image>& sharedStrips() {
@@ -73,12 +75,14 @@ double squareDistance(const grass::TileView& tile, const grass::MapLaw& law, con
   return x * x + y * y;
 }
 
-// Returns which share of the siblings is drawn beside blades that are so many times as wide.
-double siblingShare(double broad, const grass::MapLaw& law, const grass::TileView& tile,
-                    const Vec3& eye) {
-  if (broad <= 1.0) return 0.0;
-  const double distance = std::sqrt(squareDistance(tile, law, eye));
-  return std::clamp((SIBLINGS_END - distance) / (SIBLINGS_END - SIBLINGS_FADE), 0.0, 1.0);
+// Returns the share of strips at a distance from the border of the map, where a meadow that looks
+// cut off would look like an island.
+double borderShare(const grass::TileView& tile, const grass::MapLaw& law) {
+  const int column = std::min(tile.column, law.columns - 2 - tile.column);
+  const int row = std::min(tile.row, law.rows - 2 - tile.row);
+  const double inside = law.resolution * (std::min(column, row) + 0.5);
+  const double border = BORDER * law.resolution * (std::min(law.columns, law.rows) - 1);
+  return LEAST_AT_BORDER + (1.0 - LEAST_AT_BORDER) * saturate(inside / border);
 }
 
 void paint(grass::GrassMesh& mesh, std::uint8_t red, std::uint8_t blue) {
@@ -183,14 +187,16 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
     grass::TileMotion motion;
     const grass::Tile tile = levels_.tileAt(tile_view, air, meadow.tread(), stamp, patch_, motion);
     motion.model = meadow.layout().blade_model;
-    if (tile_view.morph.blades && options.blades) {
+    const double distance = std::sqrt(squareDistance(tile_view, law, eye));
+    const BladeWidths widths = widthsOf(tile_view, distance, options.strips);
+    const bool bladed = tile_view.morph.blades && options.blades;
+    if (bladed) {
       const std::size_t first = blade_mesh_.vertexCount();
-      addBlades(tile, motion, tile_view, eye, options);
+      addBlades(tile, motion, tile_view, widths, eye, options);
       shade.darken(tile_view.column, tile_view.row, first, blade_mesh_);
-      const double distance = std::sqrt(squareDistance(tile_view, law, eye));
       reach_ = std::max(reach_, static_cast<float>(distance * (1.0 - tile_view.morph.strip)));
     }
-    if (tile_view.morph.strip > 0.0 && options.strips) addFlat(tile, motion, tile_view, options);
+    if (options.strips) addFlat(tile, motion, tile_view, bladed ? widths.missing : 0.0, options);
   }
   if (options.colour_by_level) tint(options);
   blades_.fill(blade_mesh_);
@@ -202,31 +208,26 @@ void GrassVisual::build(const SubscribedMeadow& meadow, Nanoseconds stamp, const
 }
 
 void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
-                            const grass::TileView& view, const Vec3& eye, const Options& options) {
-  const int count = static_cast<int>(std::lround(tile.blades * view.share));
+                            const grass::TileView& view, const BladeWidths& widths, const Vec3& eye,
+                            const Options& options) {
+  const int count = static_cast<int>(std::lround(tile.blades * view.share * widths.kept));
   blocks_.resize(static_cast<std::size_t>(grass::blocksFor(count)));
   poseBlades(tile, motion, count, blocks_.data());
   grass::RibbonStyle style;
   style.segments = view.segments;
-  style.leaving = std::min(LEAVING, (1.0 - view.share) / view.share);
-  // Fewer blades hide each other less. They have width 0 where strips are fully grown.
-  style.width = std::pow(view.share * (1.0 - 0.5 * style.leaving), -0.95) *
-                (1.0 - view.morph.strip * view.morph.strip);
+  style.leaving = widths.leaving;
+  // They have width 0 where strips are fully grown.
+  const double left = 1.0 - view.morph.strip * view.morph.strip;
+  style.width = widths.own * left;
   style.slide = slideOf(view, options);
   style.eye = eye;
   style.light = &light_;
   style.crush = motion.crush;
   style.variety = options.variety;
-  const double broad = style.width;
-  const double siblings = siblingShare(broad, levels_.map().law(), view, eye);
-  const double beside = siblings * std::min(broad / 2.0, broad - 1.0);
-  if (beside > NARROWEST_SIBLING) {
-    style.width = broad - beside;
-    style.segments = std::max(2, style.segments - 1);
-  }
+  if (widths.beside > 0.0) style.segments = std::max(2, style.segments - 1);
   appendRibbons(levels_.map(), tile, blocks_.data(), count, style, blade_mesh_);
-  if (beside > NARROWEST_SIBLING) {
-    style.width = beside;
+  if (widths.beside > 0.0) {
+    style.width = widths.beside * left;
     style.segments = std::max(1, std::min(2, style.segments - 1));
     style.spread = SIBLING_SPREAD * tile.size / std::sqrt(std::max(1, count));
     style.sibling = 1;
@@ -236,19 +237,28 @@ void GrassVisual::addBlades(const grass::Tile& tile, const grass::TileMotion& mo
   ++report_.bladed;
 }
 
-// Adds strips for a view from the side, and layers for a view from above.
+// Adds strips for a view from the side, and layers for a view from above. Among blades, strips grow
+// with the share of the grass that these do not cover.
 void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
-                          const grass::TileView& view, const Options& options) {
+                          const grass::TileView& view, double missing, const Options& options) {
   const double from_above = grass::layerWeight(view.elevation);
-  const double upright = view.morph.strip * (1.0 - from_above);
+  // Without single blades strips take their place.
+  const double strip = view.morph.blades && !options.blades ? 1.0 : view.morph.strip;
+  const double beside = smoothStep(missing / FULLY_GROWN);
+  const double upright = (strip + beside * (1.0 - strip)) * (1.0 - from_above);
+  const StripsBegin begin(strip_mesh_);
   if (upright > 0.0 && options.edge_strips)
-    appendStrips(levels_.map(), tile, motion, upright, full_density_, strip_mesh_, &light_);
+    appendWanderingStrips(levels_.map(), levels_.terrain(), tile, motion, upright, full_density_,
+                          light_, strip_mesh_);
   else if (upright > 0.0)
     appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
-  if (from_above > 0.0)
-    appendLayers(levels_.map(), tile, motion, view.layers, view.morph.strip * from_above,
-                 full_density_, layer_mesh_, &light_);
-  ++report_.stripped;
+  ruffleStrips(tile, begin, strip_mesh_);
+  const double share = 1.0 - beside * (1.0 - missing) * (1.0 - strip);
+  thinStrips(tile, begin, share * borderShare(view, levels_.map().law()), strip_mesh_);
+  if (from_above > 0.0 && strip > 0.0)
+    appendLayers(levels_.map(), tile, motion, view.layers, strip * from_above, full_density_,
+                 layer_mesh_, &light_);
+  if (strip > 0.0) ++report_.stripped;
 }
 
 void GrassVisual::tint(const Options&) {

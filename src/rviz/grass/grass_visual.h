@@ -9,6 +9,7 @@
 
 #include "grass/lod/meadow_lod.h"
 #include "ros/replicas/subscribed_meadow.h"
+#include "rviz/grass/blade_widths.h"
 #include "rviz/render/grass_batch.h"
 #include "rviz/render/material.h"
 #include "rviz/render/texture.h"
@@ -72,9 +73,10 @@ class GrassVisual {
   void build(const SubscribedMeadow& meadow, Nanoseconds stamp, const View& view,
              const std::vector<grass::TileView>& tiles, const Options& options);
   void addBlades(const grass::Tile& tile, const grass::TileMotion& motion,
-                 const grass::TileView& view, const Vec3& eye, const Options& options);
+                 const grass::TileView& view, const BladeWidths& widths, const Vec3& eye,
+                 const Options& options);
   void addFlat(const grass::Tile& tile, const grass::TileMotion& motion,
-               const grass::TileView& view, const Options& options);
+               const grass::TileView& view, double missing, const Options& options);
   void tint(const Options& options);
 
   Ogre::SceneNode* node_;  // Ogre's; destroyed by us

@@ -16,7 +16,8 @@ constexpr Rgba STUBBLE{0.52f, 0.56f, 0.26f, 1.f}, HAY{0.62f, 0.56f, 0.31f, 1.f};
 constexpr double HALF_HIDDEN = 0.12;   // cut grass that hides half of what is below [kg/m^2]
 constexpr float UNDER = 0.48f;         // share of light that closed grass blocks
 constexpr double THINNING = 0.45;      // share of the grass that is missing in thin places
-constexpr double MEADOW_BORDER = 3.0;  // [m] over which the edge fades into the surroundings
+constexpr double MEADOW_BORDER = 4.0;  // [m] over which the edge fades into the surroundings
+constexpr double RAGGED = 0.06;        // part of the map over which the begin of that edge varies
 
 Vec3 widen(const Rgba& c) {
   return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
@@ -36,6 +37,13 @@ double crushAt(const grass::CrushPatch& patch, double u, double v, Vec3& lying) 
   };
   lying = Vec3(at(patch.tx), at(patch.ty), 0.0) / grass::BEND_LIMIT;
   return saturate(at(patch.tilt) / grass::BEND_LIMIT);
+}
+
+// Returns a share from 0 to 1 that varies within two and ten metres.
+double raggedAt(const Noise& noise, float x, float y) {
+  const float broad = noise.smooth(x / 9.f + 70.f, y / 9.f),
+              fine = noise.smooth(x / 1.7f, y / 1.7f);
+  return saturate(1.6 * static_cast<double>(0.7f * broad + 0.3f * fine) - 0.3);
 }
 
 }  // namespace
@@ -109,13 +117,15 @@ Rgba MeadowPainter::colourAt(double x, double y, const Ground& ground) const {
   const double north = law.origin_y + law.resolution * map_.tileRows();
   const double inside =
       std::min(std::min(x - law.origin_x, east - x), std::min(y - law.origin_y, north - y));
-  const auto own_share = static_cast<float>(smoothStep(inside / MEADOW_BORDER));
+  const double range = RAGGED * std::min(east - law.origin_x, north - law.origin_y);
+  const double begin = inside < range + MEADOW_BORDER ? range * raggedAt(noise_, fx, fy) : 0.0;
+  const auto own_share = static_cast<float>(smoothStep((inside - begin) / MEADOW_BORDER));
   Rgba land{};
   if (own_share < 1.f) {
     land = groundColour(noise_, x, y, 0.0, tint_);
     for (std::size_t i = 0; i < 3; ++i) land[i] *= open[i];
   }
-  if (inside <= 0.0) return land;
+  if (own_share <= 0.f) return land;
   grass::Features f = map_.at(x, y);
   if (!masks_.empty()) f.colour = grass::averageColour(f.colour, masks_, x, y);
   const auto thin = static_cast<float>(

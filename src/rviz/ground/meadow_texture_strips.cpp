@@ -7,6 +7,7 @@
 
 #include "rviz/ground/meadow_texture.h"
 #include "vegetation_sim/core/math/math.h"
+#include "vegetation_sim/core/math/random.h"
 
 namespace vegetation_sim::view {
 namespace {
@@ -60,6 +61,18 @@ std::vector<Image> allSizes(Image picture) {
   return out;
 }
 
+// Returns the factor on the colour of the blade that has this alpha: some are straw, some bluer.
+Rgba tintOf(std::uint8_t alpha) {
+  constexpr double STRAW = 0.75, COOL = 0.3;  // random numbers above and below
+  constexpr double DARKEST = 0.8;
+  const std::uint32_t word = mix32(0x57a1U + alpha);
+  const double hue = (word & 0xffffU) / 65535.0;
+  const auto light = static_cast<float>(DARKEST + (word >> 16) / 65535.0 * 2.0 * (1.0 - DARKEST));
+  if (hue > STRAW) return {1.15f * light, 1.03f * light, 0.82f * light, 1.f};
+  if (hue < COOL) return {0.88f * light, 0.98f * light, 0.95f * light, 1.f};
+  return {light, light, light, 1.f};
+}
+
 }  // namespace
 
 std::vector<Image> stripPictures(int columns, int rows, int blades) {
@@ -67,12 +80,13 @@ std::vector<Image> stripPictures(int columns, int rows, int blades) {
   Image out(columns, rows, {});
   // Roots are in the first row; a clear last row keeps them from showing above the tips.
   for (int r = 0; r + 1 < rows; ++r)
-    for (int c = 0; c < columns; ++c)
+    for (int c = 0; c < columns; ++c) {
+      const std::uint8_t* pixel =
+          &from.pixels[4 * static_cast<std::size_t>((rows - 1 - r) * columns + c)];
+      const Rgba tint = tintOf(pixel[3]);
       for (std::size_t k = 0; k < 4; ++k)
-        out.at(c, r)[k] =
-            static_cast<float>(
-                from.pixels[4 * static_cast<std::size_t>((rows - 1 - r) * columns + c) + k]) /
-            255.f;
+        out.at(c, r)[k] = std::min(1.f, tint[k] * static_cast<float>(pixel[k]) / 255.f);
+    }
   return allSizes(std::move(out));
 }
 

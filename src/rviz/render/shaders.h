@@ -152,7 +152,8 @@ void main() {
   vec4 ground = texture2D(picture, place.xy);
   float far = min(dot(view, view) * under.x, 1.0);
   vec3 paint = ground.rgb * light.rgb * mix(ground.a, 1.0, far);
-  vec4 fine = texture2D(grain, place.zw);
+  // Far away the repeating detail would show as rows.
+  vec4 fine = mix(vec4(0.5), texture2D(grain, place.zw), 1.0 / (1.0 + 0.0003 * dot(view, view)));
   float sum = paint.r + paint.g + paint.b;
   float green = clamp((18.0 * paint.g - 6.36 * sum) / (sum + 0.01), 0.0, 1.0);
   paint *= 2.0 * mix(fine.rgb, fine.aaa, green);

@@ -51,6 +51,22 @@ float ridge(const Noise& noise, float turn) {
          0.010f * noise.smooth(around, 21.f) + 0.003f * noise.smooth(8.f * around, 40.f);
 }
 
+// Returns the sine of the elevation of the tops of far woods by azimuth.
+float canopyLine(const Noise& noise, float turn) {
+  const float around = static_cast<float>(Noise::PERIOD) * turn;
+  return 0.001f + 0.020f * noise.smooth(0.75f * around, 33.f) * noise.smooth(2.f * around, 45.f) +
+         0.004f * noise.smooth(4.f * around, 51.f) + 0.002f * noise.smooth(16.f * around, 57.f);
+}
+
+// Returns the colour of far woods, whose feet stand in haze.
+Rgba woodColour(const Daylight& light, float up) {
+  constexpr Rgba DARK{0.60f, 0.70f, 0.66f, 1.f};
+  Rgba out = light.horizon;
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] *= 1.f + (DARK[i] - 1.f) * 0.62f * smooth(-0.001f, 0.008f, up);
+  return out;
+}
+
 }  // namespace
 
 double skyElevation(double v) {
@@ -77,8 +93,11 @@ SkyShapes::SkyShapes(int columns_wanted, int rows_wanted)
     const SinCos e = sinCos(skyElevation((r + 0.5) / rows));
     for (const SinCos& azimuth : around) clouds.push_back(cloudAt(noise, directionOf(azimuth, e)));
   }
-  for (int c = 0; c < columns; ++c)
-    hills.push_back(ridge(noise, static_cast<float>(c) / static_cast<float>(columns)));
+  for (int c = 0; c < columns; ++c) {
+    const float turn = static_cast<float>(c) / static_cast<float>(columns);
+    hills.push_back(ridge(noise, turn));
+    woods.push_back(canopyLine(noise, turn));
+  }
 }
 
 Image skyPicture(const Daylight& light, const SkyShapes& shapes) {
@@ -90,6 +109,7 @@ Image skyPicture(const Daylight& light, const SkyShapes& shapes) {
     const auto up = static_cast<float>(e.sin);
     const Rgba clear = mix(light.horizon, light.zenith, 1.f - std::pow(1.f - up, 3.2f));
     const Rgba hill = mix(light.horizon, light.zenith, 0.36f * smooth(0.f, 0.04f, up));
+    const Rgba wood = woodColour(light, up);
     const float opacity = CLOUD_OPACITY * smooth(0.f, 0.16f, up);
     for (int c = 0; c < out.columns; ++c, ++density) {
       const auto column = static_cast<std::size_t>(c);
@@ -99,7 +119,9 @@ Image skyPicture(const Daylight& light, const SkyShapes& shapes) {
           mix(CLOUD_LIT, CLOUD_SHADED, smooth(CLOUD_COVER + 0.1f, CLOUD_COVER + 0.4f, *density));
       colour = mix(colour, cloud, opacity * smooth(CLOUD_COVER, CLOUD_COVER + 0.24f, *density));
       const float hills = shapes.hills[column];
+      const float woods = shapes.woods[column];
       out.at(c, r) = mix(hill, colour, smooth(hills - 0.003f, hills + 0.003f, up));
+      out.at(c, r) = mix(wood, out.at(c, r), smooth(woods - 0.001f, woods + 0.001f, up));
       out.at(c, r)[3] = 1.f;
     }
   }

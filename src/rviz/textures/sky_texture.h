@@ -22,17 +22,19 @@ struct Daylight {
 /// [rad].
 Daylight daylightOf(double azimuth, double elevation);
 
-/// Clouds and far hills, which do not depend on the light and take longest to paint.
+/// Clouds, far hills and woods before them, which do not depend on the light and take longest to
+/// paint.
 struct SkyShapes {
   SkyShapes(int columns_wanted, int rows_wanted);
 
   int columns, rows;
   std::vector<float> clouds;  ///< [rows x columns] density
   std::vector<float> hills;   ///< [columns] sine of their elevation
+  std::vector<float> woods;   ///< likewise
 };
 
-/// Paints the sky with clouds and far hills. Columns are the azimuth, counter-clockwise from east;
-/// rows are the elevation from the zenith at the top to the horizon at the bottom.
+/// Paints the sky with clouds, far hills and woods. Columns are the azimuth, counter-clockwise from
+/// east; rows are the elevation from the zenith at the top to the horizon at the bottom.
 Image skyPicture(const Daylight& light, const SkyShapes& shapes);
 /// Returns the elevation [rad] of a row, v = 0 at the top to 1 at the bottom; rows are finer
 /// towards the horizon.
