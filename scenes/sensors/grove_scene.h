@@ -50,7 +50,6 @@ class Grove {
     plants.update(replica_.layout(), replica_.layoutHash(), replica_.foliageOfPlane(), centre,
                   radius, threads);
   }
-  canopy::Foliage foliage() { return replica_.foliageOfPlane(); }
 
  private:
   canopy::Canopy animator_;
