@@ -248,11 +248,11 @@ void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& moti
   const double upright = (strip + beside * (1.0 - strip)) * (1.0 - from_above);
   const StripsBegin begin(strip_mesh_);
   if (upright > 0.0 && options.edge_strips)
-    appendWanderingStrips(levels_.map(), levels_.terrain(), tile, motion, upright, full_density_,
-                          light_, strip_mesh_);
+    appendShiftedStrips(levels_.map(), levels_.terrain(), tile, motion, upright, full_density_,
+                        light_, strip_mesh_);
   else if (upright > 0.0)
     appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
-  ruffleStrips(tile, begin, strip_mesh_);
+  varyStrips(tile, begin, strip_mesh_);
   const double share = 1.0 - beside * (1.0 - missing) * (1.0 - strip);
   thinStrips(tile, begin, share * borderShare(view, levels_.map().law()), strip_mesh_);
   if (from_above > 0.0 && strip > 0.0)

@@ -12,7 +12,7 @@ namespace vegetation_sim::view {
 namespace {
 
 constexpr int EDGES = 4;
-// Strips wander between these distances from their edge, inwards, in sides of the tile.
+// Strips are shifted inwards from their edge by between these distances, in sides of the tile.
 constexpr double OUTERMOST = -0.12, INNERMOST = 0.46;
 constexpr double END = 0.16;      // largest distance of an end from the corner, in sides
 constexpr double STAGGER = 0.05;  // of other points along the edge, in sides
@@ -106,7 +106,7 @@ void fade(double factor, std::size_t vertex, grass::GrassMesh& mesh) {
 
 }  // namespace
 
-void ruffleStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassMesh& mesh) {
+void varyStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassMesh& mesh) {
   const StripDice dice(tile.key, EDGES);
   for (std::size_t i = begin.vertex; i + 1 < mesh.vertexCount(); i += 2) {
     const int index = 2 * static_cast<int>(i - begin.vertex);
@@ -141,10 +141,10 @@ void thinStrips(const grass::Tile& tile, const StripsBegin& begin, double share,
   mesh.indices.resize(end);
 }
 
-void appendWanderingStrips(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
-                           const grass::Tile& tile, const grass::TileMotion& motion, double grown,
-                           double full_density, const grass::GrassLight& light,
-                           grass::GrassMesh& mesh) {
+void appendShiftedStrips(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
+                         const grass::Tile& tile, const grass::TileMotion& motion, double grown,
+                         double full_density, const grass::GrassLight& light,
+                         grass::GrassMesh& mesh) {
   std::size_t vertex = mesh.vertexCount();
   grass::TileMotion untrodden = motion;
   untrodden.crush = nullptr;

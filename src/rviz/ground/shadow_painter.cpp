@@ -11,22 +11,22 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr double LEAF_DEPTH = 0.55;  // optical depth of one leaf cluster, seen from the sun
-constexpr double WOOD_DEPTH = 1.5;   // of a ball of wood
-constexpr double WOOD_STEP = 0.15;   // [m] between such balls
-constexpr double THINNEST = 0.7;     // [pixel] radius of a shadow
-constexpr float DARKEST = 0.62f;     // alpha of a veil without sunlight
-constexpr double VEIL_BORDER = 0.1;  // share of the edge over which a veil fades out
+constexpr double LEAF_DEPTH = 0.55;     // optical depth of one leaf cluster, seen from the sun
+constexpr double WOOD_DEPTH = 1.5;      // of a ball of wood
+constexpr double WOOD_STEP = 0.15;      // [m] between such balls
+constexpr double THINNEST = 0.7;        // [pixel] radius of a shadow
+constexpr float DARKEST = 0.62f;        // alpha of an overlay without sunlight
+constexpr double OVERLAY_BORDER = 0.1;  // share of the edge over which an overlay fades out
 
 // Leaves hide the wood of the outer branches.
 int woodBalls(const forest::Branch& branch, bool leaves) {
   return branch.depth > 1 && leaves ? 0 : 1 + static_cast<int>(branch.length / WOOD_STEP);
 }
 
-// Returns the share of a veil that is left at a pixel of a row or column.
+// Returns the share of an overlay that is left at a pixel of a row or column.
 float shareInside(int pixel, int edge) {
   const double from_border = std::min(pixel + 0.5, edge - pixel - 0.5) / edge;
-  return static_cast<float>(smoothStep(from_border / VEIL_BORDER));
+  return static_cast<float>(smoothStep(from_border / OVERLAY_BORDER));
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set
   });
 }
 
-Image veilPicture(const std::vector<float>& light, int edge, const Window& window) {
+Image overlayPicture(const std::vector<float>& light, int edge, const Window& window) {
   Image out(window.columns, window.rows, {1.f, 1.f, 1.f, 0.f});
   std::vector<float> across;
   for (int c = 0; c < window.columns; ++c) across.push_back(shareInside(window.column + c, edge));

@@ -53,9 +53,9 @@ std::vector<float> castShadows(const Plot& plot, int edge, const Window& window,
 std::vector<float> shadowsOn(const Plot& plot, int edge, const TreeSet& tree_set,
                              const terrain::HeightMap& terrain, const Vec3& to_sun);
 
-/// Paints a window of a dark veil over a plot, north at the top; its alpha is least in full light.
+/// Paints a window of a dark overlay on a plot, north at the top; its alpha is least in full light.
 /// It fades out towards the border of the plot, beyond which nothing is in shadow.
 /// @param light of the whole plot, as castShadows().
-Image veilPicture(const std::vector<float>& light, int edge, const Window& window);
+Image overlayPicture(const std::vector<float>& light, int edge, const Window& window);
 
 }  // namespace vegetation_sim::view

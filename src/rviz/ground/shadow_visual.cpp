@@ -20,15 +20,15 @@ constexpr double UPDATE_TIME = 3e-3;      // [s] of painting in one update
 ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            const terrain::HeightMap& terrain, const Daylight& daylight)
     : ShadowVisual(parent, tree_set, terrain,
-                   veilPicture(shadowsOn(plotAround(tree_set.extent()), EDGE, tree_set, terrain,
-                                         daylight.to_sun),
-                               EDGE, wholePlot(EDGE)),
+                   overlayPicture(shadowsOn(plotAround(tree_set.extent()), EDGE, tree_set, terrain,
+                                            daylight.to_sun),
+                                  EDGE, wholePlot(EDGE)),
                    nullptr) {}
 
 ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            const terrain::HeightMap& terrain, std::unique_ptr<MovingShadows> moving)
     : ShadowVisual(parent, tree_set, terrain,
-                   veilPicture(moving->light(), moving->edge(), wholePlot(moving->edge())),
+                   overlayPicture(moving->light(), moving->edge(), wholePlot(moving->edge())),
                    std::move(moving)) {}
 
 ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
@@ -36,9 +36,9 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
                            std::unique_ptr<MovingShadows>&& moving)
     : node_(parent.createChildSceneNode()),
       moving_(std::move(moving)),
-      texture_(uniqueName("veil_picture"), mipmaps(picture)),
-      material_(Material::Kind::SHADOWS, uniqueName("veil_material"), {texture_.name()}),
-      veil_(uniqueName("veil"), material_.name()) {
+      texture_(uniqueName("overlay_picture"), mipmaps(picture)),
+      material_(Material::Kind::SHADOWS, uniqueName("overlay_material"), {texture_.name()}),
+      overlay_(uniqueName("overlay"), material_.name()) {
   const Plot plot = plotAround(tree_set.extent());
   const Vec3& origin = tree_set.origin();
   node_->setPosition(static_cast<float>(origin.x()), static_cast<float>(origin.y()),
@@ -62,10 +62,10 @@ ShadowVisual::ShadowVisual(Ogre::SceneNode& parent, const TreeSet& tree_set,
       triangles.insert(triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
     }
   }
-  veil_.build(positions, paint, triangles, 0.f);
+  overlay_.build(positions, paint, triangles, 0.f);
   // It is drawn after grass, ground and walkers, which hide it where they are in front.
-  veil_.setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3, Batch::LAST_RANK + 2);
-  node_->attachObject(&veil_);
+  overlay_.setRenderQueueGroupAndPriority(Ogre::RENDER_QUEUE_3, Batch::LAST_RANK + 2);
+  node_->attachObject(&overlay_);
 }
 
 ShadowVisual::~ShadowVisual() {
@@ -83,7 +83,7 @@ void ShadowVisual::update(const forest::ForestReplica& replica, Nanoseconds stam
   const Window changed = moving_->takeChanged();
   if (changed.columns * changed.rows == 0) return;
   texture_.update(changed.column, moving_->edge() - changed.row - changed.rows,
-                  veilPicture(moving_->light(), moving_->edge(), changed));
+                  overlayPicture(moving_->light(), moving_->edge(), changed));
 }
 
 void ShadowVisual::light(const Daylight& daylight, const Haze& haze) {

@@ -41,7 +41,7 @@ class ShadowVisual {
   bool late_{false};
   Texture texture_;
   Material material_;
-  Batch veil_;
+  Batch overlay_;
 };
 
 }  // namespace vegetation_sim::view

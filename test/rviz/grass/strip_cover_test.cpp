@@ -24,7 +24,7 @@ class StripCoverTest : public testing::Test {
     out.height.value = 0.4;
     return out;
   }
-  void append() { appendWanderingStrips(map_, flat_, tile_, motion_, 1.0, FULL, {}, mesh_); }
+  void append() { appendShiftedStrips(map_, flat_, tile_, motion_, 1.0, FULL, {}, mesh_); }
   // Returns the place of a vertex in sides of the tile, from its south-west corner.
   grass::Point placeOf(std::size_t vertex) const {
     const double size = double{tile_.size};
@@ -41,7 +41,7 @@ class StripCoverTest : public testing::Test {
 };
 
 // S2-10: there are four strips, and few of their points are near the straight lines of the grid.
-TEST_F(StripCoverTest, StripsWanderBesideTheEdges) {
+TEST_F(StripCoverTest, StripsAreShiftedFromTheEdges) {
   append();
   constexpr std::size_t LINE = 2 * (grass::STRIP_CELLS + 1);
   ASSERT_EQ(mesh_.vertexCount(), 4 * LINE);
@@ -115,7 +115,7 @@ TEST_F(StripCoverTest, ThinStripsKeepTheirShare) {
 TEST_F(StripCoverTest, TopsOfRuffledStripsLeanToBothSides) {
   const StripsBegin begin(mesh_);
   append();
-  ruffleStrips(tile_, begin, mesh_);
+  varyStrips(tile_, begin, mesh_);
   int left = 0, right = 0;
   for (std::size_t i = 0; i < mesh_.vertexCount(); i += 2) {
     EXPECT_NEAR(heightOf(i + 1), 0.4, 0.11);
