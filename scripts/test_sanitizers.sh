@@ -21,7 +21,7 @@ reports=$folder/reports
 common="log_path=$reports/report:log_exe_name=1"
 export ASAN_OPTIONS=$common:detect_leaks=0:new_delete_type_mismatch=0
 export UBSAN_OPTIONS=$common:print_stacktrace=1
-export TSAN_OPTIONS=$common:suppressions=$ROOT/test/thread_sanitizer.txt:ignore_noninstrumented_modules=1
+export TSAN_OPTIONS=$common:suppressions=$ROOT/test/thread_sanitizer.txt
 
 # usage: run_test NAME COMMAND ...   Prints what the sanitizers reported during the command.
 run_test() {
@@ -29,8 +29,8 @@ run_test() {
   shift
   rm -rf "$reports" && mkdir -p "$reports"
   "$@" </dev/null >"$folder/$name.log" 2>&1 || result='failed, see its log'
-  ! grep -qE 'FAILURES: [1-9]|ERRORS: [1-9]|RESULT: FAIL' "$folder/$name.log" || result='failed, see its log'
-  count=$(cat "$reports"/* 2>/dev/null | grep -cE 'ERROR: AddressSanitizer|runtime error:|WARNING: ThreadSanitizer' || true)
+  ! grep -qE 'FAILURES: [1-9]|ERRORS: [1-9]|RESULT: FAIL|process has died' "$folder/$name.log" || result='failed, see its log'
+  count=$(cat "$reports"/* 2>/dev/null | grep -cE 'ERROR: AddressSanitizer|runtime error:|WARNING: ThreadSanitizer|Sanitizer: CHECK failed' || true)
   [ "$count" -eq 0 ] || cp -r "$reports" "$folder/reports_$name"
   [ "$count" -eq 0 ] || failed=1
   printf '%-28s %3d reports, %s (%d s)\n' "$name" "$count" "$result" $((SECONDS - start))

@@ -66,8 +66,8 @@ class ClosableQueue::Guarded final : public ros::CallbackInterface {
   }
 
  private:
-  ros::CallbackInterfacePtr callback_;
-  std::shared_ptr<Gate> gate_;
+  const ros::CallbackInterfacePtr callback_;
+  const std::shared_ptr<Gate> gate_;
 };
 
 ClosableQueue::ClosableQueue(ros::CallbackQueueInterface& target)

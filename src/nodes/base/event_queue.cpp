@@ -15,15 +15,15 @@ void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const Que
   warnOfMore(status, now.late, reported.late, "recorded events late, the replay differs");
 }
 
-void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published) {
-  if (losses.late > published.late)
-    ROS_WARN_THROTTLE(1.0,
-                      "%s: recorded events came after their tick, so this replay differs from its "
-                      "run; a larger replay_delay or a slower bag may help",
-                      node);
-  if (losses.lost > published.lost)
-    ROS_WARN_THROTTLE(1.0, "%s: too many inputs at once; some are lost", node);
-  published = losses;
+void LossWarnings::warn(const char* node, const QueueLosses& losses) {
+  if (losses.late > known_.late && late_.hasPassed())
+    ROS_WARN(
+        "%s: recorded events came after their tick, so this replay differs from its run; a larger "
+        "replay_delay or a slower bag may help",
+        node);
+  if (losses.lost > known_.lost && lost_.hasPassed())
+    ROS_WARN("%s: too many inputs at once; some are lost", node);
+  known_ = losses;
 }
 
 void requireShare(const std::string& what, std::size_t own, std::size_t more, std::size_t share) {

@@ -15,6 +15,7 @@
 
 #include "nodes/base/client_shares.h"
 #include "ros/services/stamp_limits.h"
+#include "ros/time/warning_interval.h"
 #include "vegetation_sim/ros/conversions/stamps.h"
 
 namespace vegetation_sim {
@@ -28,8 +29,15 @@ struct QueueLosses {
 /// Warns on /diagnostics of losses since the last report.
 void warnOfLosses(diagnostic_updater::DiagnosticStatusWrapper& status, const QueueLosses& now,
                   const QueueLosses& reported);
-/// Warns on the node's console of losses that are not yet in `published`, and adds them to it.
-void warnOfLosses(const char* node, const QueueLosses& losses, QueueLosses& published);
+/// Warns on the console of a node of losses that are new.
+class LossWarnings {
+ public:
+  void warn(const char* node, const QueueLosses& losses);
+
+ private:
+  QueueLosses known_;
+  WarningInterval late_, lost_;
+};
 
 /// @throws InvalidInput, which says that there is no room, unless `own` and `more` are within
 /// `share` together.

@@ -106,7 +106,7 @@ class SavedNode : public NodeBase {
       });
     }
     if (!options_.replay) acceptInput("checkpoint", [&] { snapshots_.addTick(std::move(done)); });
-    warnOfLosses(name_.c_str(), inputs_.losses(), warned_);
+    loss_warnings_.warn(name_.c_str(), inputs_.losses());
   }
   void publishEvent(const Event& event) {
     if (options_.replay || events_publisher_.getNumSubscribers() == 0) return;
@@ -292,7 +292,7 @@ class SavedNode : public NodeBase {
   bool recovers_{false};
   bool in_tick_{false};
   std::vector<Event> recovered_;  // of the tick that runs again
-  QueueLosses warned_;            // on the console
+  LossWarnings loss_warnings_;
 };
 
 }  // namespace vegetation_sim

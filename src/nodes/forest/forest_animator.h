@@ -33,6 +33,7 @@
 #include "nodes/listeners/viewer_registry.h"
 #include "nodes/markers/forest_markers.h"
 #include "ros/replicas/hashed_cache.h"
+#include "ros/time/warning_interval.h"
 
 namespace vegetation_sim {
 
@@ -136,6 +137,7 @@ class ForestAnimator final : public EventNode<ForestInputs, ForestAnimatorConfig
   bool force_key_frame_{true}, grabs_published_{false};
   std::uint64_t state_bytes_{0}, leases_ended_{0};
   std::uint64_t grabs_lost_{0}, reported_grabs_lost_{0};  // to another design
+  WarningInterval uncut_warning_, budget_warning_{10.0};
   std::uint64_t left_uncut_{0}, reported_left_uncut_{0};  // branches that tools have met
   forest::Reaction deepest_;  // of the contacts since diagnostics were last sent
 

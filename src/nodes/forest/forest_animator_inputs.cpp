@@ -120,7 +120,8 @@ void ForestAnimator::followCutters(Nanoseconds stamp) {
       std::min(MOST_TOOL_CUTS, forest::MOST_BROKEN - std::min(forest::MOST_BROKEN, broken));
   if (cuts.size() > room) {
     left_uncut_ += cuts.size() - room;
-    ROS_WARN_THROTTLE(1.0, "forest_animator: tools leave %zu branches uncut", cuts.size() - room);
+    if (uncut_warning_.hasPassed())
+      ROS_WARN("forest_animator: tools leave %zu branches uncut", cuts.size() - room);
     cuts.resize(room);
   }
   // The last one that is added is applied first.

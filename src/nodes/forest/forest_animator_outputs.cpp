@@ -45,8 +45,9 @@ void ForestAnimator::sendBranches() {
     const auto grown = cache_.get(*forest_, tree);
     sent += grown->tree.skeleton.branches.size();
     if (sent > static_cast<std::size_t>(options_.branches_budget)) {
-      ROS_WARN_THROTTLE(10.0, "forest_animator: branches_budget = %d ends at tree %d",
-                        options_.branches_budget, id);
+      if (budget_warning_.hasPassed())
+        ROS_WARN("forest_animator: branches_budget = %d ends at tree %d", options_.branches_budget,
+                 id);
       return;
     }
     BranchTransforms message =

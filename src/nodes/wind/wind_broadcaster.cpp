@@ -35,6 +35,7 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
       snapshots_(settings_.snapshots, name_, private_handle_.getNamespace(), snapshotCalls()),
       reconfigure_(mutex_, private_handle_),
       clock_(handle_, [this](Nanoseconds now) { acceptInput("clock", [&] { begin(now); }); }) {
+  diagnostics_.add("wind law", this, &WindBroadcaster::diagnose);  // takes the mutex in a report
   const Lock lock(mutex_);
   serve("set_primitive", &WindBroadcaster::setPrimitive);
   serve("remove_primitive", &WindBroadcaster::removePrimitive);
@@ -47,7 +48,6 @@ WindBroadcaster::WindBroadcaster(const ros::NodeHandle& handle,
   repeat(PRUNE_RATE, &WindBroadcaster::prune);
   repeat(settings_.markers_rate, &WindBroadcaster::publishMarkers);
   repeat(settings_.sample_rate, &WindBroadcaster::publishSamples);
-  diagnostics_.add("wind law", this, &WindBroadcaster::diagnose);
   startDiagnostics();
   reconfigure_.setCallback(
       [this](WindBroadcasterConfig& config, std::uint32_t level) { reconfigure(config, level); });

@@ -43,8 +43,8 @@ void FrameListener::add(const Arrival& arrival, bool is_static) {
     try {
       buffer_.setTransform(frame, arrival.getPublisherName(), is_static);
     } catch (const tf2::TransformException& error) {
-      ROS_ERROR_THROTTLE(1.0, "frame '%s' is rejected: %s", frame.child_frame_id.c_str(),
-                         error.what());
+      if (rejections_.hasPassed())
+        ROS_ERROR("frame '%s' is rejected: %s", frame.child_frame_id.c_str(), error.what());
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <tf2_ros/buffer.h>
 
 #include "ros/time/backward_step.h"
+#include "ros/time/warning_interval.h"
 
 namespace vegetation_sim {
 
@@ -29,6 +30,7 @@ class FrameListener {
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_;
   BackwardStep clock_times_;
+  WarningInterval rejections_;
   ros::Subscriber moving_, fixed_;
   ros::AsyncSpinner spinner_;
 };

@@ -44,9 +44,9 @@ void TickClock::listen(ros::NodeHandle handle) {
 void TickClock::drop(std::int64_t due) {
   const std::int64_t between = due - last_ - 1;
   counts_.dropped += static_cast<std::uint64_t>(between);
-  ROS_WARN_THROTTLE(1.0, "%s: %lld ticks (%g s) are skipped: they could not be computed in time",
-                    name_.c_str(), static_cast<long long>(between),
-                    static_cast<double>(between) / grid_.rate());
+  if (drop_warning_.hasPassed())
+    ROS_WARN("%s: %lld ticks (%g s) are skipped: they could not be computed in time", name_.c_str(),
+             static_cast<long long>(between), static_cast<double>(between) / grid_.rate());
   last_ = due - 1;
 }
 

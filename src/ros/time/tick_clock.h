@@ -11,6 +11,7 @@
 #include <string>
 
 #include "ros/time/backward_step.h"
+#include "ros/time/warning_interval.h"
 #include "vegetation_sim/core/math/time.h"
 
 namespace vegetation_sim {
@@ -93,6 +94,7 @@ class TickClock {
   std::int64_t last_{NEVER};
   Counts counts_;
   double cost_{0.0};
+  WarningInterval drop_warning_;
   ros::Subscriber clock_;
   ros::Timer timer_;
 };
