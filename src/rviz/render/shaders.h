@@ -68,8 +68,11 @@ void main() {
   vec3 around = mix(ground_light.rgb, zenith_light.rgb, 0.5 + 0.5 * normal.z);
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
-  light.rgb = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z)) *
-              (1.0 - light.a);
+  vec3 lit = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z));
+  // Very bright colours become paler and grow less, as on film; else one channel would be cut off.
+  float over = max(max(lit.r, max(lit.g, lit.b)) - 0.45, 0.0);
+  lit = mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), min(0.4 * over, 0.25)) / (1.0 + 0.7 * over);
+  light.rgb = lit * (1.0 - light.a);
   place = gl_MultiTexCoord0.xy;
 }
 )";
