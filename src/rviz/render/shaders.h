@@ -69,9 +69,10 @@ void main() {
   float f = clamp((far - haze.x) * haze.y, 0.0, 1.0);
   light.a = haze.z * f * (2.0 - f);
   vec3 lit = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z));
-  // Very bright colours become paler and grow less, as on film; else one channel would be cut off.
-  float over = max(max(lit.r, max(lit.g, lit.b)) - 0.45, 0.0);
-  lit = mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), min(0.4 * over, 0.25)) / (1.0 + 0.7 * over);
+  // Bright saturated colours become paler and grow less, as on film, before a channel is cut off.
+  float most = max(lit.r, max(lit.g, lit.b)), least = min(lit.r, min(lit.g, lit.b));
+  float over = max(most - 0.45, 0.0) * (most - least) / max(most, 0.01);
+  lit = mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), min(0.5 * over, 0.25)) / (1.0 + 0.9 * over);
   light.rgb = lit * (1.0 - light.a);
   place = gl_MultiTexCoord0.xy;
 }
