@@ -4,6 +4,8 @@
 #include <rviz/properties/property_tree_model.h>
 #include <rviz/view_controller.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,7 +63,8 @@ class SquareOfLeaves {
  public:
   /// @param distance from the eye [m]; the picture of the square does not depend on it.
   /// @param tilt angle of its plane to the view [rad].
-  SquareOfLeaves(DisplayRig& rig, view::Material::Variant variant, double distance, double tilt)
+  SquareOfLeaves(DisplayRig& rig, view::Material::Variant variant, double distance, double tilt,
+                 const std::array<std::uint8_t, 3>& rgb = {250, 20, 20})
       : texture_(view::uniqueName("square_picture"), {view::Image(16, 16, {1.f, 1.f, 1.f, 1.f})}),
         material_(view::Material::Kind::LEAVES, view::uniqueName("square_material"),
                   {texture_.name()}, variant),
@@ -78,7 +81,8 @@ class SquareOfLeaves {
       const Vec3 at = Vec3(0, 0, HEIGHT) + distance / 6.0 * (x * across + y * along);
       for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(at[k]));
     }
-    const view::VertexPaint paint{{0.f, 0.f, 1.f}, {250, 20, 20, 255}, {0.5f, 0.5f, 1.f}};
+    const view::VertexPaint paint{
+        {0.f, 0.f, 1.f}, {rgb[0], rgb[1], rgb[2], 255}, {0.5f, 0.5f, 1.f}};
     batch_.build(positions, std::vector<view::VertexPaint>(4, paint), {0, 1, 2, 0, 2, 3}, 0.f);
     node_->attachObject(&batch_);
   }
@@ -117,6 +121,26 @@ TEST_F(ForestDisplayTest, LeavesNearTheEyeGoAsTheyAreSeenOnEdge) {
   EXPECT_LT(on_edge, others / 10);
   EXPECT_NEAR(far, others, 0.2 * others);
   EXPECT_GT(face, 5 * others);
+}
+
+// In full sun, light leaves are brighter than others, but neither cut off nor of a pure colour.
+// What has hardly a colour, as clouds, becomes white.
+TEST_F(ForestDisplayTest, BrightLeavesBecomePaler) {
+  using Variant = view::Material::Variant;
+  const auto colourInSun = [&](const std::array<std::uint8_t, 3>& colour) {
+    const SquareOfLeaves square(rig, Variant::WHOLE, 3.0, 0.8, colour);
+    return rig.middleOf(steadyPicture(rig));
+  };
+  const std::array<int, 3> dark = colourInSun({60, 90, 20});
+  const std::array<int, 3> light = colourInSun({120, 160, 45});
+  const std::array<int, 3> cloud = colourInSun({200, 200, 195});
+  std::cout << "in the sun: " << dark[0] << ' ' << dark[1] << ' ' << dark[2] << ", " << light[0]
+            << ' ' << light[1] << ' ' << light[2] << ", " << cloud[0] << ' ' << cloud[1] << ' '
+            << cloud[2] << '\n';
+  EXPECT_GT(light[1], dark[1] + 20);
+  EXPECT_LT(light[1], 230);
+  EXPECT_GT(static_cast<double>(light[2]) / light[1], 45.0 / 160.0 + 0.05);
+  EXPECT_GT(*std::min_element(cloud.begin(), cloud.end()), 245);
 }
 
 // With the property, the ground differs between two instants of a gust; without it, it does not.

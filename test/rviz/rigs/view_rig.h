@@ -109,6 +109,13 @@ class ViewRig {
     return out;
   }
 
+  /// Returns the colour in the middle of an image, 0 to 255.
+  std::array<int, 3> middleOf(const std::vector<std::uint8_t>& pixels) {
+    const Ogre::RenderWindow& window = *panel_.getRenderWindow();
+    const std::size_t at = 3 * (window.getHeight() / 2 * window.getWidth() + window.getWidth() / 2);
+    return {pixels[at], pixels[at + 1], pixels[at + 2]};
+  }
+
   /// Returns the largest mean difference of a block of 16 x 16 pixels between two images, 0 to 255.
   double largestChange(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     constexpr std::size_t BLOCK = 16;
