@@ -248,8 +248,7 @@ void GrassVisual::addFlat(const grass::Tile& tile, const grass::TileMotion& moti
   const double upright = (strip + beside * (1.0 - strip)) * (1.0 - from_above);
   const StripsBegin begin(strip_mesh_);
   if (upright > 0.0 && options.edge_strips)
-    appendShiftedStrips(levels_.map(), levels_.terrain(), tile, motion, upright, full_density_,
-                        light_, strip_mesh_);
+    appendStrips(levels_.map(), tile, motion, upright, full_density_, strip_mesh_, &light_);
   else if (upright > 0.0)
     appendRows(levels_.map(), tile, motion, ROWS, upright, full_density_, strip_mesh_, &light_);
   varyStrips(tile, begin, strip_mesh_);

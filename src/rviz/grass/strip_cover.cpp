@@ -11,22 +11,19 @@
 namespace vegetation_sim::view {
 namespace {
 
-constexpr int EDGES = 4;
-// Strips are shifted inwards from their edge by between these distances, in sides of the tile.
-constexpr double OUTERMOST = -0.12, INNERMOST = 0.46;
-constexpr double END = 0.16;      // largest distance of an end from the corner, in sides
-constexpr double STAGGER = 0.05;  // of other points along the edge, in sides
 constexpr double LOWEST = 0.75, HIGHEST = 1.15;    // factor of the height
 constexpr double DARKEST = 0.84, LIGHTEST = 1.14;  // factor of the colour
 constexpr double LEAN = 0.32;                      // of a top to either side, per height
 constexpr double SOFT = 0.35;                      // of the ends of tufts
 constexpr double ROOTS = 0.5;  // share of the blades that reach the ground, for a ragged foot
 
-// Random numbers of a part of a tile.
+// What random numbers of a tile are for.
+enum Purpose { VARIETY = 4, THINNING = 5 };
+
 class StripDice {
  public:
-  StripDice(std::uint64_t key, int part)
-      : seed_(mix32(static_cast<std::uint32_t>(key >> 32) + 0x9e3779b9U * std::uint32_t(part)) ^
+  StripDice(std::uint64_t key, Purpose purpose)
+      : seed_(mix32(static_cast<std::uint32_t>(key >> 32) + 0x9e3779b9U * std::uint32_t(purpose)) ^
               static_cast<std::uint32_t>(key)) {}
   // Returns a uniform number in [low, high) for an index.
   double between(int index, double low, double high) const {
@@ -37,51 +34,6 @@ class StripDice {
  private:
   std::uint32_t seed_;
 };
-
-// A point of a strip, in sides of the tile.
-struct StripPoint {
-  double along, inward;
-};
-
-StripPoint pointOf(const StripDice& dice, int k) {
-  constexpr int LAST = grass::STRIP_CELLS;
-  const auto inward = [&](int i) { return dice.between(i, OUTERMOST, INNERMOST); };
-  StripPoint out{static_cast<double>(k) / LAST, inward(k)};
-  // Every other point is near the middle of its neighbours, so that strips are curved, not jagged.
-  if (k % 2) out.inward = 0.25 * out.inward + 0.375 * (inward(k - 1) + inward(k + 1));
-  const double range = k == 0 || k == LAST ? END : STAGGER;
-  out.along += dice.between(LAST + 1 + k, -range, range);
-  return out;
-}
-
-// Returns the place of a point of an edge, in sides of the tile from its south-west corner.
-grass::Point placeOf(int edge, const StripPoint& p) {
-  if (edge == 0) return {p.along, p.inward};
-  if (edge == 1) return {1.0 - p.inward, p.along};
-  if (edge == 2) return {1.0 - p.along, 1.0 - p.inward};
-  return {p.inward, 1.0 - p.along};
-}
-
-// Returns the vector from root to top of grass that leans by `offset` without tread, where the
-// ground has been trodden or cut. `cover` is multiplied by the share that is left of cut grass.
-Vec3 treadOn(const grass::CrushPatch& patch, const grass::Point& place, double grown, Vec3 offset,
-             double& cover) {
-  const std::size_t i =
-      patch.nearest(static_cast<float>(saturate(place.x)), static_cast<float>(saturate(place.y)));
-  const double flat = std::hypot(offset.x(), offset.y());
-  double height = length(offset);
-  const double share = 1.0 - double{patch.tilt[i]} / grass::BEND_LIMIT;
-  const double bend = flat > 0.0 ? share * std::atan2(flat, offset.z()) / flat : 0.0;
-  const double x = double{patch.tx[i]} + bend * offset.x();
-  const double y = double{patch.ty[i]} + bend * offset.y();
-  if (!patch.cut.empty() && grown * double{patch.cut[i]} < height) {
-    cover *= grown * double{patch.cut[i]} / height;
-    height = grown * double{patch.cut[i]};
-  }
-  const double lean = std::hypot(x, y), angle = std::min(lean, grass::BEND_LIMIT);
-  const double reach = lean > 0.0 ? height * std::sin(angle) / lean : 0.0;
-  return {reach * x, reach * y, height * std::cos(angle)};
-}
 
 void put(const Vec3& at, std::size_t vertex, grass::GrassMesh& mesh) {
   for (int i = 0; i < 3; ++i)
@@ -107,7 +59,7 @@ void fade(double factor, std::size_t vertex, grass::GrassMesh& mesh) {
 }  // namespace
 
 void varyStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassMesh& mesh) {
-  const StripDice dice(tile.key, EDGES);
+  const StripDice dice(tile.key, VARIETY);
   for (std::size_t i = begin.vertex; i + 1 < mesh.vertexCount(); i += 2) {
     const int index = 2 * static_cast<int>(i - begin.vertex);
     const Vec3 root = pointAt(i, mesh);
@@ -125,7 +77,7 @@ void varyStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassM
 void thinStrips(const grass::Tile& tile, const StripsBegin& begin, double share,
                 grass::GrassMesh& mesh) {
   if (!(share < 1.0)) return;
-  const StripDice dice(tile.key, EDGES + 1);
+  const StripDice dice(tile.key, THINNING);
   for (std::size_t i = begin.vertex; i + 1 < mesh.vertexCount(); i += 2) {
     const double rank = dice.between(static_cast<int>(i - begin.vertex), 0.0, 1.0);
     const double left = saturate((share * (1.0 + SOFT) - rank) / SOFT);
@@ -139,38 +91,6 @@ void thinStrips(const grass::Tile& tile, const StripsBegin& begin, double share,
     end += 3;
   }
   mesh.indices.resize(end);
-}
-
-void appendShiftedStrips(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
-                         const grass::Tile& tile, const grass::TileMotion& motion, double grown,
-                         double full_density, const grass::GrassLight& light,
-                         grass::GrassMesh& mesh) {
-  std::size_t vertex = mesh.vertexCount();
-  grass::TileMotion untrodden = motion;
-  untrodden.crush = nullptr;
-  appendStrips(map, tile, untrodden, grown, full_density, mesh, &light);
-  const double size = double{tile.size};
-  const Vec3 corner = Vec3(tile.x, tile.y, tile.z) - mesh.origin;
-  for (int edge = 0; edge < EDGES; ++edge) {
-    const StripDice dice(tile.key, edge);
-    const auto shift = static_cast<float>(dice.between(100, 0.0, 1.0));
-    for (int k = 0; k <= grass::STRIP_CELLS; ++k, vertex += 2) {
-      const grass::Point place = placeOf(edge, pointOf(dice, k));
-      Vec3 root = corner + size * Vec3(place.x, place.y, 0.0);
-      if (tile.sloped)
-        root.z() =
-            terrain.height(tile.x + size * place.x, tile.y + size * place.y) - mesh.origin.z();
-      Vec3 offset = pointAt(vertex + 1, mesh) - pointAt(vertex, mesh);
-      double cover = 1.0;
-      if (motion.crush) offset = treadOn(*motion.crush, place, grown, offset, cover);
-      put(root, vertex, mesh);
-      put(root + offset, vertex + 1, mesh);
-      for (const std::size_t i : {vertex, vertex + 1}) {
-        fade(cover, i, mesh);
-        mesh.texture[2 * i] += shift;
-      }
-    }
-  }
 }
 
 }  // namespace vegetation_sim::view

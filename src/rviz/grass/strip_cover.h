@@ -3,7 +3,6 @@
 #pragma once
 
 #include "grass/mesh/grass_geometry.h"
-#include "vegetation_sim/terrain/height_map.h"
 
 namespace vegetation_sim::view {
 
@@ -21,13 +20,5 @@ void varyStrips(const grass::Tile& tile, const StripsBegin& begin, grass::GrassM
 /// Leaves a share of the strips of a tile: tufts with soft ends. What shows nothing is removed.
 void thinStrips(const grass::Tile& tile, const StripsBegin& begin, double share,
                 grass::GrassMesh& mesh);
-
-/// Appends the four strips on the edges of a tile as appendStrips() does, but each is shifted from
-/// its edge, shows a part of the picture of its own, and ends at random before or after the corner,
-/// so that a meadow shows no grid. Tread and cuts are those of the place where a strip stands.
-void appendShiftedStrips(const grass::FeatureMap& map, const terrain::HeightMap& terrain,
-                         const grass::Tile& tile, const grass::TileMotion& motion, double grown,
-                         double full_density, const grass::GrassLight& light,
-                         grass::GrassMesh& mesh);
 
 }  // namespace vegetation_sim::view
