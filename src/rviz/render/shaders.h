@@ -71,8 +71,8 @@ void main() {
   vec3 lit = gl_Color.rgb * (direct + around * (leaf.z + (1.0 - leaf.z) * gl_MultiTexCoord0.z));
   // Bright saturated colours become paler and grow less, as on film, before a channel is cut off.
   float most = max(lit.r, max(lit.g, lit.b)), least = min(lit.r, min(lit.g, lit.b));
-  float over = max(most - 0.45, 0.0) * (most - least) / max(most, 0.01);
-  lit = mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), min(0.5 * over, 0.25)) / (1.0 + 0.9 * over);
+  float over = max(most - 0.5, 0.0) * (most - least) / max(most, 0.01);
+  lit = mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), min(0.45 * over, 0.25)) / (1.0 + 0.75 * over);
   light.rgb = lit * (1.0 - light.a);
   place = gl_MultiTexCoord0.xy;
 }
