@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "crowd/agents/crowd_scene.h"
 #include "scenes/crowd/crowd_scenes.h"
@@ -130,6 +133,41 @@ TEST(BodySkeleton, WanderersStayUpright) {
   }
   std::cout << "lowest pelvis: " << lowest << " of the height\n";
   EXPECT_GT(lowest, 0.4);
+}
+
+// S2-34: on slopes of 60 degrees, and where they begin and end, people hardly get on, but limbs
+// keep their lengths and nobody sinks into the ground.
+TEST(BodySkeleton, PeopleStandOnSlopesOf60Degrees) {
+  const auto hillside = std::make_shared<terrain::HeightMap>(slope(std::tan(PI / 3.0)));
+  Crowd crowd(1, {}, {-15, 15, -15, 15}, hillside);
+  for (const Spawn& spawn : groupOf({}, 60, 15.0, 0.2, Random(1))) crowd.spawn(spawn);
+  double lowest = 1.0, farthest = 0.0, longest = 0.0;
+  std::vector<Point> starts;
+  for (const Walker& walker : crowd.walkers()) starts.push_back(walker.position);
+  for (int tick = 1; tick <= 600; ++tick) {
+    crowd.advance(fromSeconds(DT * tick));
+    for (const Walker& walker : crowd.walkers()) {
+      const Skeleton body = skeletonOf(walker, *hillside);
+      for (int side = 0; side < 2; ++side)
+        for (const auto& [part, share] : {std::pair(Part::THIGH, Proportions::THIGH),
+                                          std::pair(Part::SHANK, Proportions::SHANK)}) {
+          const Limb& limb = limbOf(body, part, side);
+          longest =
+              std::max(longest, std::fabs(length(limb.to - limb.from) - share * walker.height));
+        }
+      const Limb& pelvis = limbOf(body, Part::PELVIS);
+      const Vec3 middle = 0.5 * (pelvis.from + pelvis.to);
+      lowest =
+          std::min(lowest, (middle.z() - hillside->height(middle.x(), middle.y())) / walker.height);
+    }
+  }
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    farthest = std::max(farthest, length(crowd.walkers()[i].position - starts[i]));
+  std::cout << "lowest pelvis: " << lowest << " of the height; limbs longer by " << longest
+            << " m; farthest way " << farthest << " m in 10 s\n";
+  EXPECT_GT(lowest, 0.1);
+  EXPECT_LT(longest, 0.02);
+  EXPECT_LT(farthest, 15.0);
 }
 
 }  // namespace

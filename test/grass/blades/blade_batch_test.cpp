@@ -265,6 +265,28 @@ TEST(BladeBatch, NoBladeIsPressedIntoTheGround) {
   }
 }
 
+// Slopes of 60 degrees are as others: roots stand on them, blades keep their length and stay above.
+TEST(BladeBatch, BladesStandOnSlopesOf60Degrees) {
+  const terrain::HeightMap hill = slopedGround(std::sqrt(3.0), 0.0);
+  const CrushPatch patch = rampPatch(1.5f, 0.6f, -0.8f);
+  const Tile tile = makeTile(FeatureMap(), hill, 1, 4, 6);
+  TileMotion trodden;
+  trodden.crush = &patch;
+  for (const TileMotion& motion : {TileMotion(), trodden}) {
+    const auto blocks = posed(tile, motion, COUNT);
+    for (int blade = 0; blade < COUNT; ++blade) {
+      const Vec3 root = pointOf(blocks, blade, 0);
+      const double east = tile.x + root.x(), north = tile.y + root.y();
+      ASSERT_NEAR(root.z() + tile.z, hill.height(east, north), 1e-5);
+      const double wanted = traitsOf(tile, blade).length;
+      ASSERT_NEAR(polylineLength([&](int i) { return pointOf(blocks, blade, i); }), wanted,
+                  1e-5 * wanted + 2e-6);
+      for (int i = 1; i < POINTS; ++i)
+        ASSERT_GT(dot(pointOf(blocks, blade, i) - root, hill.normal(east, north)), -2e-6);
+    }
+  }
+}
+
 TEST(BladeBatch, RootsStandOnTheTerrain) {
   const terrain::HeightMap hill = slopedGround(0.3, -0.1);
   const Tile tile = makeTile(FeatureMap(), hill, 1, 4, 6);
