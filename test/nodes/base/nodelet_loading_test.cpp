@@ -92,19 +92,21 @@ bool answers(const std::string& name) {
 TEST(Nodelets, AreUnloadedWhileInputsArrive) {
   World world;
   const Repeating time([&] { world.step(); });
-  const Repeating requests([] {
-    for (const char* name : NODES) {
-      std_srvs::Trigger request;
-      ros::service::call(std::string("/") + name + "/reset", request);
-    }
-  });
   Manager manager;
-  const int rounds = roundsOf(std::getenv("VEGETATION_SIM_NODELET_ROUNDS"));
-  for (int round = 0; round < rounds; ++round)
-    for (const char* name : NODES) {
-      manager.unload(name);
-      manager.load(name);
-    }
+  {
+    const Repeating requests([] {
+      for (const char* name : NODES) {
+        std_srvs::Trigger request;
+        ros::service::call(std::string("/") + name + "/reset", request);
+      }
+    });
+    const int rounds = roundsOf(std::getenv("VEGETATION_SIM_NODELET_ROUNDS"));
+    for (int round = 0; round < rounds; ++round)
+      for (const char* name : NODES) {
+        manager.unload(name);
+        manager.load(name);
+      }
+  }
   for (const char* name : NODES) EXPECT_TRUE(answers(name)) << name;
 }
 
